@@ -11,11 +11,12 @@ import numpy as np
 from benchmarks import ours
 from benchmarks.problem import make_problem
 from equipoise.estimation.output_error import trajectory
-from equipoise.estimation.output_error.segment_jumps import RATE, walk
+from equipoise.estimation.output_error.segment_jumps import walk
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply
+from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor
 from equipoise.simulation.bench import SimulatedBench

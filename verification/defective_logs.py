@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.events.detection_threshold import threshold
 from equipoise.estimation.events.event_search import without
+from equipoise.estimation.events.jump_test import threshold
 from equipoise.estimation.events.record_model import Happening, RecordModel, farther, refitted
 from equipoise.estimation.model_selection import reference_fit
 from equipoise.estimation.model_selection.survey import cut_times

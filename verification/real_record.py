@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from equipoise.assessment.findings.record_findings import findings
+from equipoise.estimation.events.record_model import jumping
 from equipoise.estimation.model_selection import reference_fit
-from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import evaluate
-from equipoise.estimation.output_error.trajectory import Params, problem_of
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.estimate import Estimate
@@ -62,9 +62,7 @@ def predicted() -> float:
     part = window(recording, WHOLE[0], CALM_FROM)
     params = Params(GROUPS["viscous"], hold=HELD)
     posterior = reference_fit.steady(reference_fit.surveyed(part, testbed, params))
-    known = replace(posterior.params, jumps=posterior.fitted.problem.jumps)
-    problem = problem_of(recording, posterior.testbed, known)
-    jumps = carried(posterior.fitted.problem.jumps, posterior.fitted.jumps, problem.jumps)
+    problem, jumps = jumping(posterior, recording, posterior.fitted.problem.jumps)
     left = evaluate(problem, posterior.fitted.point, jumps).left_q * problem.observed.attitude_sd
     assert recording.attitude is not None
     fresh = left[recording.attitude.t > CALM_FROM]

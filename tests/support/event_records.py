@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.dynamics.propagation import body_of
-from equipoise.estimation.output_error.segment_jumps import RATE as RATES
 from equipoise.estimation.parameters.fit_parameters import RATE, R, Unknowns
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
 from equipoise.model.estimate import COM as COM_NAMES
+from equipoise.model.estimate import RATE as RATES
 from equipoise.model.mass_properties import MassProperties, parallel_axis
 from equipoise.model.recording import Recording, Samples
 from tests.support.builders import (

@@ -146,8 +146,8 @@ ASSESSMENT = _of(
 
 ESTIMATION = _of(
     "estimation",
-    ("events/detection_threshold.py", "/ FALSE_ALARM / len(KINDS)", "/ FALSE_ALARM",
-     "estimation/events/test_detection_threshold.py"),
+    ("events/jump_test.py", "/ FALSE_ALARM / len(KINDS)", "/ FALSE_ALARM",
+     "estimation/events/test_event_evidence.py"),
     ("events/process_noise_spectrum.py", "np.mean(sums**2, axis=0) / n",
      "np.mean(sums**2, axis=0)", "estimation/events/test_process_noise_spectrum.py"),
     ("output_error/kernels/normal_equations.py", "limit * (size - 0.5 * limit)", "limit * size",

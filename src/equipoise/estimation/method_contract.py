@@ -19,6 +19,8 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.version import __version__
 
+SURPRISED = 1.5  # chosen: times the expected square of innovations, beyond which nothing is usable
+
 
 @dataclass(frozen=True, slots=True)
 class Options:

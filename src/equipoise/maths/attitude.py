@@ -64,6 +64,11 @@ def exponential(vector: Floats) -> Floats:
     return np.concatenate([np.cos(angle / 2), half_sine * vector], axis=-1)
 
 
+def turned_on(q: Floats, rate: Floats, seconds: float) -> Floats:
+    """Return the attitude (body to laboratory) after so long at a rate (rad/s, body axes)."""
+    return multiply(q, exponential(seconds * rate))
+
+
 def logarithm(q: Floats) -> Floats:
     """Return the rotation vector (rad) of the shorter way round."""
     q = np.where(q[..., :1] < 0, -q, q)

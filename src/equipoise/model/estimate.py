@@ -15,6 +15,7 @@ from equipoise.model.reasons.reason import Reason
 COM = ("com_x", "com_y", "com_z")
 END = ("com_end_x", "com_end_y", "com_end_z")  # with the masses as they stand at the end
 INERTIA = tuple(f"inertia_P_{ij}" for ij in ("xx", "yy", "zz", "xy", "xz", "yz"))
+BODY = (*INERTIA, *COM)
 RATE = ("rate_x", "rate_y", "rate_z")  # at the beginning of a record
 ATTITUDE = ("attitude_x", "attitude_y", "attitude_z")
 NORMAL_95 = 1.959963984540054  # two-sided 95 % point of the normal distribution

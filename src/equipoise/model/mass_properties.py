@@ -35,6 +35,11 @@ class MassProperties(Plotted):
         return self.mass * self.com
 
     @property
+    def mean_moment(self) -> float:
+        """Mean moment of inertia about P, kg m^2."""
+        return float(np.trace(self.inertia_P)) / 3
+
+    @property
     def inertia_C(self) -> Matrix3:
         """Inertia about the centre of mass, kg m^2."""
         return self.inertia_P - parallel_axis(self.mass, self.com)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.model.arrays import Series, Series1
+from equipoise.model.arrays import Bools, Series, Series1
 from equipoise.model.devices import Device, at_start, recorded_name
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.presentation import Plotted
@@ -35,6 +35,10 @@ class Samples:
     def __len__(self) -> int:
         """Return the number of rows."""
         return len(self.t)
+
+    def where(self, keep: Bools | slice) -> "Samples":
+        """Return some of the rows."""
+        return Samples(self.t[keep], self.values[keep])
 
     @property
     def period(self) -> float:
@@ -69,6 +73,11 @@ class Recording(Plotted):
     free_from: float | None = None  # s, when the platform was let go, where the file states it
 
     @property
+    def rows(self) -> int:
+        """Return how many rows camera and gyro have."""
+        return sum(len(c) for c in (self.attitude, self.rate) if c is not None)
+
+    @property
     def span(self) -> tuple[float, float]:
         """Return the first and last time of any sensor row, s."""
         edges = [(c.t[0], c.t[-1]) for c in (self.attitude, self.rate) if c is not None and len(c)]
@@ -91,8 +100,7 @@ def window(recording: Recording, start: float, end: float) -> Recording:
 def _sensed(channel: Samples | None, start: float, end: float) -> Samples | None:
     if channel is None:
         return None
-    keep = (channel.t >= start) & (channel.t <= end)
-    return Samples(channel.t[keep], channel.values[keep])
+    return channel.where((channel.t >= start) & (channel.t <= end))
 
 
 def _known(channel: Samples | None, start: float, end: float) -> Samples | None:
@@ -100,7 +108,7 @@ def _known(channel: Samples | None, start: float, end: float) -> Samples | None:
         return channel
     first = max(int(np.searchsorted(channel.t, start, side="right")) - 1, 0)
     last = int(np.searchsorted(channel.t, end, side="left")) + 1
-    return Samples(channel.t[first:last], channel.values[first:last])
+    return channel.where(slice(first, last))
 
 
 def rows_between(recording: Recording, since: float, until: float) -> Recording:
@@ -116,7 +124,7 @@ def _between(channel: Samples | None, since: float, until: float) -> Samples | N
     if channel is None:
         return None
     first, last = np.searchsorted(channel.t, [since, until], side="right")
-    return Samples(channel.t[first:last], channel.values[first:last]) if last > first else None
+    return channel.where(slice(first, last)) if last > first else None
 
 
 def join(first: Recording, second: Recording) -> Recording:
@@ -147,8 +155,7 @@ def _lengths_after(attitude: Samples | None, lengths: Samples | None) -> Samples
     """Return the lengths of rows that a join keeps, though the first may have none of its own."""
     if attitude is None or lengths is None or not len(attitude):
         return lengths
-    new = lengths.t > attitude.t[-1]
-    return Samples(lengths.t[new], lengths.values[new])
+    return lengths.where(lengths.t > attitude.t[-1])
 
 
 def arranged(recording: Recording, names: tuple[str, ...]) -> Recording:

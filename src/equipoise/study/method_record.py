@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.dynamics.sag_trim import SAG_TERMS
-from equipoise.estimation.information.cramer_rao_bound import least_sd
+from equipoise.estimation.information.information_matrix import least_sd
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import params_of
 from equipoise.estimation.output_error.trajectory import Params

@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.calibration.calibration import guess
-from equipoise.estimation.calibration.drive_calibration import Drive, of_drive, scatter_of
-from equipoise.estimation.calibration.drive_observability import groups, together
+from equipoise.estimation.calibration.drive_calibration import (
+    Drive,
+    groups,
+    of_drive,
+    scatter_of,
+    together,
+)
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.testbed import DriveDoubt

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.output_error.segment_jumps import (
-    RATE,
-    TURN,
     UNCUT,
     Jump,
     carried,
@@ -15,7 +13,7 @@ from equipoise.estimation.output_error.segment_jumps import (
     width,
 )
 from equipoise.estimation.parameters.fit_parameters import Layout
-from equipoise.model.estimate import COM
+from equipoise.model.estimate import ATTITUDE, COM, RATE
 
 LAYOUT = Layout(("swirl",), (), True, ("plumb_x",))
 HIT = Jump(3.0, RATE, (0.1, 0.2, 0.3), is_event=True)
@@ -99,6 +97,6 @@ def test_a_node_is_found_in_spite_of_rounding(rounding):
 
 def test_every_coordinate_may_jump():
     """Attitude, rate, com, a torque, a sensor's coefficient and the bias, each by its own place."""
-    names = (*TURN, *RATE, *COM, "swirl", "plumb_x", "gyro_bias_z")
+    names = (*ATTITUDE, *RATE, *COM, "swirl", "plumb_x", "gyro_bias_z")
     cuts = cuts_of((Jump(1.0, names, (1.0,) * 12),), np.array([0.0, 1.0, 2.0]), LAYOUT)
     assert cuts.free[0].tolist() == [0, 1, 2, 3, 4, 5, 12, 13, 14, 15, 16, 19]

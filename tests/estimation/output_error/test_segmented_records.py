@@ -11,7 +11,6 @@ from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.output_error.kernels.gauss_newton import local_for
 from equipoise.estimation.output_error.kernels.interval_smoother import pieces_at
 from equipoise.estimation.output_error.problem import posed
-from equipoise.estimation.output_error.segment_jumps import RATE as RATES
 from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import evaluate, freedom, settle, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, problem_of
@@ -20,6 +19,7 @@ from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
 from equipoise.model.estimate import COM as COM_NAMES
+from equipoise.model.estimate import RATE as RATES
 from equipoise.model.mass_properties import parallel_axis
 from tests.support.builders import (
     ATTITUDE,

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.regression.rest_positions import (
     Rest,
     along,
@@ -42,7 +43,7 @@ def two_rests() -> Recording:
 
 def test_two_rests_by_hand():
     """20 um sideways tilt it by 45 deg, so it hangs 20 um low (to 1e-9 m: nothing is noisy)."""
-    found = estimate(two_rests(), platform())
+    found = estimate(two_rests(), platform(), Options())
     assert found.outcome.usable
     np.testing.assert_allclose(found.com, [0.0, 0.0, -SHIFT], rtol=0, atol=1e-9)
 
@@ -53,7 +54,7 @@ def test_noise_is_in_the_interval():
     error = np.radians(0.2) * np.random.default_rng(5).normal(size=(len(record.attitude), 3))
     turns = np.where((record.attitude.t > LEAVES)[:, None], TURNED, LEVEL)
     noisy = replace(record, attitude=Samples(record.attitude.t, exponential(turns + error)))
-    found = estimate(noisy, platform())
+    found = estimate(noisy, platform(), Options())
     sd = np.array([p.sd for p in found.parameters])
     assert np.all(np.abs(found.com - [0.0, 0.0, -SHIFT]) < 4 * sd)
     single = SHIFT * np.radians(0.2) / np.sqrt(250)
@@ -64,7 +65,7 @@ def test_one_rest_is_refused_with_a_sentence():
     """A direction without a length: the sentence says what to do about it."""
     alone = replace(two_rests(), masses=None, mass_names=())
     level = Samples(alone.attitude.t, exponential(np.zeros((len(alone.attitude), 3))))
-    found = estimate(replace(alone, attitude=level), platform())
+    found = estimate(replace(alone, attitude=level), platform(), Options())
     assert not found.outcome.usable
     assert found.parameters == ()
     assert codes_of(found) == ["too_few_rests"]
@@ -129,7 +130,9 @@ def test_a_swing_is_no_rest():
     swing = np.radians(3.0) * np.sin(2 * np.pi * record.attitude.t / 7.0)
     turns = np.where((record.attitude.t > LEAVES)[:, None], TURNED, LEVEL)
     swung = exponential(turns + np.outer(swing, [1.0, 0, 0]))
-    found = estimate(replace(record, attitude=Samples(record.attitude.t, swung)), platform())
+    found = estimate(
+        replace(record, attitude=Samples(record.attitude.t, swung)), platform(), Options()
+    )
     assert "swung by 1.5 deg rms" in found.outcome.sentence
     assert codes_of(found) == ["from_rests", "swings_at_rest"]
     assert found.outcome.trust == "not_trustworthy"
@@ -158,7 +161,7 @@ def test_rests_of_a_platform_that_swings_widely_are_refused_with_a_sentence():
     """
     bed = read_preset("sputnix")
     record = recorded(SimulatedBench(bed, 4), 120.0, [(60.0, {"z1": -0.05, "x1": 0.05})])
-    found = estimate(record, bed)
+    found = estimate(record, bed, Options())
     assert not found.outcome.usable
     assert found.parameters == ()
     assert re.search(r"swung by \d+ deg rms", found.outcome.sentence)

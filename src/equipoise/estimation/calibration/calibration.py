@@ -26,15 +26,15 @@ import numpy as np
 from equipoise.estimation.calibration.drive_calibration import (
     NUMBERS,
     Drive,
+    alike_reasons,
     drives_of,
     labels_of,
     of_drive,
     pull,
     scatter_of,
     shown,
+    together,
 )
-from equipoise.estimation.calibration.drive_observability import reasons_of as alike_reasons
-from equipoise.estimation.calibration.drive_observability import together
 from equipoise.estimation.calibration.sensor_alignment import (
     ALIGNMENT,
     GYRO,

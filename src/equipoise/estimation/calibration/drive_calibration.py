@@ -1,4 +1,4 @@
-"""What a fit with drives in doubt says of each drive.
+"""What a fit with drives in doubt says of each drive, and which drives a record does not separate.
 
 With x_g, x_v, x_w, x_b as in ``actuators.drive_errors``, and k = (1 + x_g) u + x_v v + x_w w,
 
@@ -12,7 +12,16 @@ With x_g, x_v, x_w, x_b as in ``actuators.drive_errors``, and k = (1 + x_g) u + 
 The fit is about a rail u near the true one: errors of stops act along u, and a rail that is
 3 deg off would throw 1/20 of them aside, unexplained (0.05 um of com for 20 um of 0.7 kg in 14).
 
-Cannot see weight and steps apart; nor a scatter of the first stop at home, which defines home.
+Masses that always move together in one pattern show the sum of their first moments only. With P the
+posterior covariance of gains or of rails, each unknown over its prior sd, a record leaves the prior
+as it was along the eigenvectors of
+
+    (E - s s^T) P (E - s s^T),     s: all gains alike, the common scale, which is reported elsewhere
+
+whose eigenvalue is near 1. Masses with a large part in one of them are not separated by it.
+
+Cannot see weight and steps apart; nor a scatter of the first stop at home, which defines home; nor
+a pattern of errors of stops, which have a prior that is stated.
 """
 
 from dataclasses import dataclass
@@ -24,12 +33,17 @@ from equipoise.actuators.lost_motion import directions
 from equipoise.maths.axes_across import axes_across
 from equipoise.model.arrays import Floats, Ints, Series1, Vector3
 from equipoise.model.estimate import Estimate, Parameter
+from equipoise.model.reasons.data_reasons import Unexplained
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import SlidingMass
 
 NUMBERS = 8  # that a drive has
 SHOWN = 0.9  # of its prior's sd, chosen: what the record leaves wider it did not show
 FEWEST = 1.0  # stops' worth of freedom, chosen, from which a scatter is reported
+LARGE = 0.3  # of the greatest part of a mass, chosen: smaller ones come along by chance
+KINDS = (("gains", (0,)), ("rails", (1, 2)))  # and which of a drive's columns they are
+ALIKE = {"gains": Unexplained.GAINS_ALIKE, "rails": Unexplained.RAILS_ALIKE}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,3 +135,52 @@ def scatter_of(drive: Drive, estimate: Estimate, size: float) -> Parameter:
         return Parameter(name, "m", mass.accuracy, float("inf"), False)
     value = float(np.sqrt(sum(p.value**2 for p in stops) / freedom)) / size
     return Parameter(name, "m", value, max(value, mass.accuracy) / np.sqrt(2 * freedom))
+
+
+def together(drives: tuple[Drive, ...], covariance: Floats) -> dict[str, list[tuple[int, ...]]]:
+    """Return, of gains and of rails, the groups of drives (their indices) not separated."""
+    found: dict[str, list[tuple[int, ...]]] = {}
+    for kind, places in KINDS:
+        sought = [(i, int(drive.columns[k])) for i, drive in enumerate(drives) for k in places
+                  if drive.columns[k] >= 0]  # fmt: skip
+        if sought:
+            owner, columns = np.array(sought).T
+            prior = np.array([prior_of(drives[i], kind) for i, _ in sought])
+            P = covariance[np.ix_(columns, columns)] / np.outer(prior, prior)
+            found[kind] = groups(without_scale(P) if kind == "gains" else P, owner)
+    return found
+
+
+def prior_of(drive: Drive, kind: str) -> float:
+    """Return one sd of the prior of an unknown."""
+    assert drive.mass.doubt is not None
+    return drive.mass.doubt.gain if kind == "gains" else drive.mass.doubt.across
+
+
+def without_scale(P: Floats) -> Floats:
+    """Return a covariance of gains without what they share."""
+    n = len(P)
+    separation = np.eye(n) - np.full((n, n), 1 / n)
+    return separation @ P @ separation
+
+
+def groups(P: Floats, owner: Ints) -> list[tuple[int, ...]]:
+    """Return the masses, two at least, that have a part in a direction left open."""
+    values, vectors = np.linalg.eigh(P)
+    found: set[tuple[int, ...]] = set()
+    for direction in vectors[:, values > SHOWN**2].T:
+        part = {int(i): float(np.linalg.norm(direction[owner == i])) for i in owner}
+        most = max(part.values())
+        found.add(tuple(i for i, size in part.items() if size > LARGE * most))
+    return sorted(group for group in found if len(group) > 1)
+
+
+def alike_reasons(
+    drives: tuple[Drive, ...], found: dict[str, list[tuple[int, ...]]]
+) -> list[Reason]:
+    """Name the masses that a record does not separate."""
+    return [
+        Reason(ALIKE[kind], tuple(drives[i].mass.name for i in group))
+        for kind, each in found.items()
+        for group in each
+    ]

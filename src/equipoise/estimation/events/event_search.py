@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.detection_threshold import KINDS, threshold
 from equipoise.estimation.events.event_times import later, rows_of, timed
+from equipoise.estimation.events.jump_test import KINDS, threshold
 from equipoise.estimation.events.record_model import (
     Happening,
     RecordModel,

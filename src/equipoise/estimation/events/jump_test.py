@@ -9,6 +9,10 @@ u is its estimate, D^-1 its covariance, and the surprise is chi-square of dim B 
 when nothing jumped (Rao's score test; the generalised likelihood ratio of Willsky and Jones 1976;
 for a cut whose jump has a prior, the standardised smoothed disturbance of de Jong and Penzer 1998).
 
+A surprise counts as an event beyond a threshold of one false alarm in ``FALSE_ALARM`` seconds. Were
+the tests at all cuts independent, as many would by chance exceed it; they are not, so that the rate
+is lower.
+
 A cut whose numbers are not finite, after a fit that went astray, says nothing.
 
 Cannot see jumps at the very ends, where one side has too few rows.
@@ -17,10 +21,25 @@ Cannot see jumps at the very ends, where one side has too few rows.
 from typing import NamedTuple
 
 import numpy as np
+from scipy.stats import chi2
 
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
+from equipoise.estimation.parameters.fit_parameters import RATE, R
 from equipoise.model.arrays import Floats, Series1
+from equipoise.model.estimate import COM
+from equipoise.model.estimate import RATE as RATES
 
+
+class Kind(NamedTuple):
+    """What jumps in an event of one kind."""
+
+    coordinates: slice
+    names: tuple[str, ...]
+    sd: float  # rad/s, m, chosen: any
+
+
+KINDS = {"impulse": Kind(RATE, RATES, 1.0), "com_step": Kind(R, COM, 1e-3)}
+FALSE_ALARM = 3600.0  # s between false alarms, at least
 INFORMATIVE = 1e-6  # chosen: a smaller share of the information behind a cut is rounding
 
 
@@ -48,3 +67,8 @@ def disturbances(smoothed: Smoothed, coordinates: slice) -> Disturbances:
     D = np.where(reported[:, None, None], all_rows, np.eye(all_rows.shape[1]))
     jump = np.where(reported[:, None], np.linalg.solve(D, p[..., None])[..., 0], 0.0)
     return Disturbances(np.einsum("ka,ka->k", jump, p), jump, D, p)
+
+
+def threshold(spacing: float) -> float:
+    """Return the surprise (chi-square of 3) beyond which a cut is an event; ``spacing`` in s."""
+    return float(chi2.isf(spacing / FALSE_ALARM / len(KINDS), 3))

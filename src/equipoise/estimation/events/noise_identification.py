@@ -15,15 +15,16 @@ from itertools import count
 import numpy as np
 from scipy.stats import chi2
 
-from equipoise.estimation.events.detection_threshold import KINDS
-from equipoise.estimation.events.jump_test import disturbances
+from equipoise.estimation.events.jump_test import KINDS, disturbances
 from equipoise.estimation.events.record_model import (
     RecordModel,
     improbability,
     misfits,
+    process_noise,
     refitted,
     smoothed,
 )
+from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.solution import Fitted, freedom
 from equipoise.estimation.parameters.fit_parameters import RATE
@@ -50,7 +51,7 @@ def quiet(model: RecordModel, cuts: Series1) -> Bools:
 
 def surprises(calm: Bools, after: Smoothed) -> dict[str, Floats]:
     """Return the surprise of every cut for each kind of event; events themselves surprise not."""
-    tests = {kind: disturbances(after, columns) for kind, columns in KINDS.items()}
+    tests = {kind: disturbances(after, each.coordinates) for kind, each in KINDS.items()}
     return {kind: np.where(calm, test.surprise, 0.0) for kind, test in tests.items()}
 
 
@@ -60,19 +61,23 @@ def first_walk(model: RecordModel) -> float:
     camera, gyro = misfits(fit)
     sd = fit.problem.observed.attitude_sd if len(camera) else fit.problem.observed.rate_sd
     left = float(np.sqrt(np.median(camera if len(camera) else gyro))) * sd
-    moment = float(np.trace(model.testbed.body.inertia_P)) / 3
+    moment = model.testbed.body.mean_moment
     span = 10 * model.spacing
     return moment * left / span ** (1.5 if len(camera) else 0.5)
 
 
+def free_share(fit: Fitted, after: Smoothed) -> float:
+    """Return the share of the rows that what was sought leaves free; a tenth at least."""
+    rows = 3 * (len(fit.at.left_q) + len(fit.at.left_w))
+    return max(1.0 - (freedom(fit, after) + fit.problem.layout.size) / rows, 0.1)
+
+
 def noise_factors(fit: Fitted, after: Smoothed) -> tuple[float, float]:
     """Return by how much the camera's and the gyro's noise are off, by the median row."""
-    camera, gyro = misfits(fit)
-    rows = 3 * (len(camera) + len(gyro))
-    left = max(1.0 - (freedom(fit, after) + fit.problem.layout.size) / rows, 0.1)
+    share = free_share(fit, after)
     factors = [
-        float(np.sqrt(np.median(square) / MEDIAN / left)) if len(square) else 1.0
-        for square in (camera, gyro)
+        float(np.sqrt(np.median(square) / MEDIAN / share)) if len(square) else 1.0
+        for square in misfits(fit)
     ]
     return factors[0], factors[1]
 
@@ -85,13 +90,10 @@ def is_known(factor: float, rows: int) -> bool:
 def noisier(model: RecordModel, camera: float, gyro: float) -> Testbed:
     """Return the testbed with its noise changed by these factors, within reason."""
     testbed, stated = model.testbed, model.stated
-    attitude, rate = testbed.attitude, testbed.gyro
-    least_q = BEST * stated.attitude.noise if stated.attitude else 0.0
-    least_w = BEST * stated.gyro.noise if stated.gyro else 0.0
-    return replace(
+    return with_noise(
         testbed,
-        attitude=attitude and replace(attitude, noise=max(attitude.noise * camera, least_q)),
-        gyro=rate and replace(rate, noise=max(rate.noise * gyro, least_w)),
+        max(camera_noise(testbed) * camera, BEST * camera_noise(stated)),
+        max(gyro_noise(testbed) * gyro, BEST * gyro_noise(stated)),
     )
 
 
@@ -129,19 +131,15 @@ def likelier(model: RecordModel) -> RecordModel:
     fixed point of restricted maximum likelihood; MacKay 1992, Helmert 1924).
     """
     fit, after = smoothed(model)
-    noise = [jump.is_noise for jump in fit.problem.jumps]
+    noise, sd = process_noise(fit)
     if not any(noise):
         return model
-    sd = np.array([jump.sd for jump, one in zip(fit.problem.jumps, noise, strict=True) if one])
     u, spread = fit.jumps[noise, :3], np.einsum("kaa->ka", after.jump_covariance[noise, :3, :3])
     reported = np.maximum(np.sum(1 - spread / sd**2, axis=0), 1e-9)
     walk = model.walk * np.sqrt(np.sum(u**2 / sd**2, axis=0) / reported)
     walk = np.maximum(walk, LEAST * walk.max())
-    camera, gyro = misfits(fit)
-    share = 1 - (freedom(fit, after) + fit.problem.layout.size) / (3 * (len(camera) + len(gyro)))
-    factors = [
-        float(np.sqrt(np.mean(e) / 3 / max(share, 0.1))) if len(e) else 1.0 for e in (camera, gyro)
-    ]
+    share = free_share(fit, after)
+    factors = [float(np.sqrt(np.mean(e) / 3 / share)) if len(e) else 1.0 for e in misfits(fit)]
     return refitted(replace(model, walk=walk, testbed=noisier(model, *factors)))
 
 

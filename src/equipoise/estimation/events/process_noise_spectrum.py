@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import chi2
 
-from equipoise.estimation.events.record_model import RecordModel, refitted
+from equipoise.estimation.events.record_model import RecordModel, process_noise, refitted
 from equipoise.model.arrays import Floats
 
 BLOCKS = 8  # chosen: with fewer a mean square says nothing
@@ -52,10 +52,8 @@ def coloured(model: RecordModel) -> RecordModel:
     """Return the model with process noise as dense as it is at its densest frequency."""
     if not model.wanders:
         return model
-    jumps, values = model.fitted.problem.jumps, model.fitted.jumps
-    noise = [jump.is_noise for jump in jumps]
-    sd = np.array([jump.sd[:3] for jump, one in zip(jumps, noise, strict=True) if one])
-    ratio = densest(values[noise, :3] / sd)
+    noise, sd = process_noise(model.fitted)
+    ratio = densest(model.fitted.jumps[noise, :3] / sd)
     if np.all(ratio == 1.0):
         return model
     return refitted(replace(model, walk=model.walk * np.sqrt(ratio)))

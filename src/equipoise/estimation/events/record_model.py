@@ -9,22 +9,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.estimation.events.detection_threshold import threshold
+from equipoise.estimation.events.jump_test import KINDS, threshold
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.kernels.segments import count_free
-from equipoise.estimation.output_error.problem import posed
-from equipoise.estimation.output_error.segment_jumps import RATE, Jump, carried, inside, walk
+from equipoise.estimation.output_error.problem import Problem, posed
+from equipoise.estimation.output_error.segment_jumps import Jump, carried, inside, walk
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, problem_of
-from equipoise.model.arrays import Floats, Series1, Square, Vector3
-from equipoise.model.estimate import COM
+from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
+from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-WIDE = {"impulse": 1.0, "com_step": 1e-3}  # rad/s, m: sd of an event, chosen: any
 EACH = 60  # evaluations, chosen: twice what a fit takes that settles
-NAMES = {"impulse": RATE, "com_step": COM}
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,15 +30,16 @@ class Happening:
     """An event of the model."""
 
     t: float  # s
-    kind: str  # of NAMES
+    kind: str  # of ``KINDS``
     unclear: bool = False  # it may as well be of another kind: both may jump
     aside: float = 0.0  # s, by which the moment of the other kind differs
 
     @property
     def jump(self) -> Jump:
         """Return what may jump then, that of its own kind first."""
-        others = [kind for kind in NAMES if kind != self.kind] if self.unclear else []
-        pairs = [(name, WIDE[kind]) for kind in (self.kind, *others) for name in NAMES[kind]]
+        others = [kind for kind in KINDS if kind != self.kind] if self.unclear else []
+        jumping = [KINDS[kind] for kind in (self.kind, *others)]
+        pairs = [(name, kind.sd) for kind in jumping for name in kind.names]
         names, sd = zip(*pairs, strict=True)
         return Jump(self.t, names, sd, is_event=True)
 
@@ -83,6 +82,22 @@ def jumps_of(model: RecordModel, cuts: Series1) -> tuple[Jump, ...]:
     return inside((*noise, *(event.jump for event in model.events)), *model.recording.span)
 
 
+def jumping(
+    model: RecordModel,
+    recording: Recording,
+    jumps: tuple[Jump, ...],
+    old: tuple[Jump, ...] | None = None,
+) -> tuple[Problem, Floats]:
+    """Return the problem of a model on a record with these jumps, and what its fit says of them.
+
+    ``old``: the jumps of the fit, if they are elsewhere now.
+    """
+    problem = problem_of(recording, model.testbed, replace(model.params, jumps=jumps))
+    before = model.fitted
+    old = before.problem.jumps if old is None else old
+    return problem, carried(old, before.jumps, problem.jumps)
+
+
 def fitted_in(
     model: RecordModel, cuts: Series1, most: int, moved: tuple[Happening, ...] = ()
 ) -> Fitted:
@@ -90,14 +105,11 @@ def fitted_in(
 
     ``moved``: where the events were in the fit that the model holds, if elsewhere.
     """
-    jumps = jumps_of(model, cuts)
-    params = replace(model.params, jumps=jumps)
-    problem = problem_of(model.recording, model.testbed, params)
-    before = model.fitted
     now = {old.t: event.t for old, event in zip(moved, model.events, strict=bool(moved))}
-    old = tuple(replace(jump, t=now.get(jump.t, jump.t)) for jump in before.problem.jumps)
-    first = carried(old, before.jumps, problem.jumps)
-    return settle_pinned(problem, before.point, first, most)
+    jumps = model.fitted.problem.jumps
+    old = tuple(replace(jump, t=now.get(jump.t, jump.t)) for jump in jumps)
+    problem, first = jumping(model, model.recording, jumps_of(model, cuts), old)
+    return settle_pinned(problem, model.fitted.point, first, most)
 
 
 def refitted(model: RecordModel, moved: tuple[Happening, ...] = ()) -> RecordModel:
@@ -131,8 +143,15 @@ def slowest(model: RecordModel) -> float:
     body = model.fitted.point.body(model.testbed.body.mass)
     stiffness = body.mass * model.testbed.gravity * float(np.linalg.norm(body.com))
     start, end = model.recording.span
-    swing = float(np.sqrt(np.trace(body.inertia_P) / 3 / max(stiffness, 1e-12)))
+    swing = float(np.sqrt(body.mean_moment / max(stiffness, 1e-12)))
     return float(np.clip(swing, model.spacing, end - start))
+
+
+def process_noise(fit: Fitted) -> tuple[Bools, Floats]:
+    """Return which jumps of a fit are process noise, and the sd (rad/s) of these, an axis each."""
+    jumps = fit.problem.jumps
+    noise = np.array([jump.is_noise for jump in jumps], dtype=bool)
+    return noise, np.array([jump.sd[:3] for jump in jumps if jump.is_noise])
 
 
 def misfits(fit: Fitted) -> tuple[Floats, Floats]:

@@ -19,7 +19,8 @@ import numpy as np
 from equipoise.estimation.filters.driver import State, advance, begin, reported
 from equipoise.estimation.filters.model import Kind
 from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
-from equipoise.estimation.method_contract import Method, Options, origin_of, refused
+from equipoise.estimation.method_contract import SURPRISED, Method, Options, origin_of, refused
+from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1
 from equipoise.model.estimate import INERTIA, Estimate, Parameter
@@ -31,7 +32,6 @@ from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
-SURPRISED = 1.5  # chosen: times the expected square, as the tracker has it
 FEWEST = 20  # rows, chosen: fewer say nothing about the innovations
 WIDEST = 0.9  # chosen: of a moment of inertia, by which a point may lie off it
 STEADY = 1e-9  # N m, N m s, m, chosen: a known input that changes less does not change
@@ -61,13 +61,11 @@ def noisy_rows(kind: Kind, recording: Recording, testbed: Testbed) -> tuple[Rows
     """Return the rows of a filter's sensor and one sd of a row; None: too few."""
     if kind.attitude:
         rows = camera_rows(recording, testbed)
-        noise = testbed.attitude.noise if testbed.attitude else 0.0
-        return None if rows is None or len(rows.node) < FEWEST else (rows, noise)
+        return None if rows is None or len(rows.node) < FEWEST else (rows, camera_noise(testbed))
     found = gyro_rows(recording, testbed)
     if found is None or len(found[0].node) < FEWEST:
         return None
-    noise = testbed.gyro.noise if testbed.gyro else 0.0
-    return found[0], noise / found[1] ** 0.5
+    return found[0], gyro_noise(testbed) / found[1] ** 0.5
 
 
 def standing_covariance(rows: Rows, recording: Recording, testbed: Testbed) -> Matrix3:
@@ -154,11 +152,12 @@ def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> 
     unseen = standing_covariance(rows, recording, testbed) + leaning(state, testbed)
     covariance = at_home(state, unseen)
     ended = outcome_of(passed.surprise, left_out(state, rows, testbed))
-    if not possible(state, testbed):
+    exists = possible(state, testbed)
+    if not exists:
         ended = outcome(Why.FILTER_DIVERGED)
     return Estimate(
         card.name, ended, parameters_of(state, covariance), covariance,
-        possible=possible(state, testbed), provenance=origin_of(recording), course=passed.course,
+        possible=exists, provenance=origin_of(recording), course=passed.course,
     )  # fmt: skip
 
 

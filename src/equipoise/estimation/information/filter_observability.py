@@ -48,7 +48,7 @@ from equipoise.estimation.information.linearised_filters import (
 from equipoise.estimation.information.reference_motion import Followed, halfway
 from equipoise.estimation.parameters.fit_parameters import CORE, JP, RATE, TURN, Layout, R, core_of
 from equipoise.estimation.parameters.observability import ALONG, OBSERVABLE, describe, natural_sizes
-from equipoise.model.arrays import Floats, Ints, Series1
+from equipoise.model.arrays import Floats, Series1
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.observability import FilterView
 from equipoise.model.reasons.data_reasons import Unobservable
@@ -208,11 +208,6 @@ def scale_in(model: Model, motion: Followed) -> Floats:
     return stretched / np.linalg.norm(stretched)
 
 
-def rows_at(nodes: Ints, count: int) -> Series1:
-    """Return how many rows a sensor has at each of so many nodes, or in the step behind it."""
-    return np.bincount(nodes, minlength=count).astype(np.float64)
-
-
 def view_of(model: Model, course: Course, motion: Followed) -> FilterView:
     """Return what one filter sees along a motion."""
     observed = motion.fitted.problem.observed
@@ -226,7 +221,8 @@ def view_of(model: Model, course: Course, motion: Followed) -> FilterView:
     unseen, rank = exactly_unseen(joined(outputs, np.ones(count), size)), None
     possible = len(size) - unseen.shape[1]
     if len(nodes):
-        weight = np.sqrt(rows_at(nodes, count)) / sd
+        rows = np.bincount(nodes, minlength=count)  # at each node, or in the step behind it
+        weight = np.sqrt(rows.astype(np.float64)) / sd
         unseen = unseen_of(joined(outputs, weight, size), OBSERVABLE**0.5)
         rank = len(size) - unseen.shape[1]
     unobservable = directions(unseen, scale_in(model, motion), model.states)

@@ -8,7 +8,7 @@ is followed as means of its rows, which hold as much information (``decimation``
 Cannot see whether the model is right; ``cautions`` say when its fit shows that it is not.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,19 +17,19 @@ from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import Timeline
 from equipoise.estimation.events.record_model import RecordModel
 from equipoise.estimation.model_selection.decimation import condensed
-from equipoise.estimation.model_selection.dense_record import FINE, first_gap
+from equipoise.estimation.model_selection.dense_record import fitted_means
 from equipoise.estimation.model_selection.initial_model import plainly
 from equipoise.estimation.model_selection.model_choice import levelled
-from equipoise.estimation.model_selection.reference_fit import FEWEST, check_sensors
+from equipoise.estimation.model_selection.reference_fit import FEWEST, too_few
 from equipoise.estimation.output_error.fit_estimate import EXPLAINED
 from equipoise.estimation.output_error.solution import Fitted, chi_square_share
-from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Ints
 from equipoise.model.errors import InputError
 from equipoise.model.reasons.data_reasons import Caution
 from equipoise.model.reasons.reason import Reason
-from equipoise.model.recording import Recording, arranged, window
+from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
 
@@ -46,10 +46,10 @@ class Followed:
 def followed(recording: Recording, testbed: Testbed, params: Params) -> Followed:
     """Return the motion of a recording; InputError if it has too few rows or no such sensor."""
     recording = arranged(recording, testbed.mass_names)
-    check_sensors(recording, testbed)
-    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
-    if rows < FEWEST:
-        raise InputError(recording.source or "recording", f"{rows} rows", f"at least {FEWEST}")
+    if too_few(recording, testbed):
+        raise InputError(
+            recording.source or "recording", f"{recording.rows} rows", f"at least {FEWEST}"
+        )
     recording, testbed, richer, fitted = searched(recording, testbed, params)
     still = np.zeros(0)
     model = RecordModel(recording, testbed, richer, still, np.zeros(3), (), fitted, testbed)
@@ -66,9 +66,7 @@ def searched(
     few = condensed(recording, testbed)
     if few is None:
         return recording, testbed, *plainly(recording, testbed, params)
-    recording, testbed, params = few.recording, few.testbed, replace(params, fineness=FINE)
-    early = window(recording, recording.span[0], first_gap(recording, testbed))
-    return recording, testbed, params, fit(recording, testbed, params, early=early)
+    return fitted_means(few, params)
 
 
 def cautions(fitted: Fitted, damped: bool) -> tuple[Reason, ...]:

@@ -1,17 +1,8 @@
 """Rest positions under known shifts of the masses: see ``rest_positions``."""
 
-from equipoise.estimation.method_contract import Method, Options
+from equipoise.estimation.method_contract import Method
 from equipoise.estimation.regression import rest_positions
-from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card
-from equipoise.model.recording import Recording
-from equipoise.model.testbed import Testbed
-
-
-def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
-    """Return the estimate."""
-    return rest_positions.estimate(recording, testbed)
-
 
 METHOD = Method(
     Card(
@@ -23,5 +14,5 @@ METHOD = Method(
         "inertia; anything from a single rest; useless near balance, where nothing rests",
         "rests",
     ),
-    run,
+    rest_positions.estimate,
 )

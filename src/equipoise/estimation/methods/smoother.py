@@ -3,7 +3,7 @@
 from equipoise.estimation.method_contract import Method, Options, refused
 from equipoise.estimation.methods.trajectory import params_of
 from equipoise.estimation.model_selection import drift_smoother
-from equipoise.estimation.model_selection.reference_fit import FEWEST, check_sensors
+from equipoise.estimation.model_selection.reference_fit import too_few
 from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card
 from equipoise.model.reasons.estimate_reasons import EstimateReason
@@ -13,10 +13,8 @@ from equipoise.model.testbed import Testbed
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     """Return the estimate, with the course of the centre of mass."""
-    check_sensors(recording, testbed)
-    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
-    if rows < FEWEST:
-        return refused(METHOD.card, EstimateReason.TOO_FEW_ROWS, rows=rows)
+    if too_few(recording, testbed):
+        return refused(METHOD.card, EstimateReason.TOO_FEW_ROWS, rows=recording.rows)
     return drift_smoother.estimate(recording, testbed, params_of(testbed, options))
 
 

@@ -8,7 +8,7 @@ they are wider than need be.
 import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.estimation.method_contract import Method, Options, origin_of, refused
+from equipoise.estimation.method_contract import SURPRISED, Method, Options, origin_of, refused
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.maths.linalg import pack_symmetric
@@ -22,7 +22,6 @@ from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
 MOST = 0.2  # chosen: with more odd rows it is the model that is odd
-SURPRISED = 1.5  # chosen: times the expected square of innovations, beyond which nothing is usable
 
 
 def shift_at_end(recording: Recording, testbed: Testbed) -> Vector3:

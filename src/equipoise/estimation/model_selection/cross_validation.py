@@ -10,13 +10,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.record_model import RecordModel, active, jumps_of, smoothed
+from equipoise.estimation.events.record_model import (
+    RecordModel,
+    active,
+    jumping,
+    jumps_of,
+    smoothed,
+)
 from equipoise.estimation.output_error.problem import Problem
-from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import evaluate, settle
 from equipoise.estimation.output_error.trajectory import at_rest, problem_of
 from equipoise.estimation.parameters.fit_parameters import RATE, TURN, Unknowns, unknowns_of
-from equipoise.maths.attitude import exponential, multiply
+from equipoise.maths.attitude import turned_on
 from equipoise.model.arrays import Bools, Floats
 from equipoise.model.recording import Recording, Samples, window
 
@@ -27,10 +32,7 @@ BLOCKS = 8  # chosen: enough that each is short against the record
 def posed_in(model: RecordModel, recording: Recording) -> tuple[Problem, Floats]:
     """Return the problem of a model on a record or a part of it, and where its jumps stand."""
     whole = replace(model, recording=recording)
-    params = replace(model.params, jumps=jumps_of(whole, active(model)))
-    problem = problem_of(recording, model.testbed, params)
-    before = model.fitted
-    return problem, carried(before.problem.jumps, before.jumps, problem.jumps)
+    return jumping(model, recording, jumps_of(whole, active(model)))
 
 
 def without(channel: Samples | None, held: Bools, edges: Floats) -> Samples | None:
@@ -40,7 +42,7 @@ def without(channel: Samples | None, held: Bools, edges: Floats) -> Samples | No
     block = np.clip(np.searchsorted(edges, channel.t, side="right") - 1, 0, BLOCKS - 1)
     keep = ~held[block]
     keep[[0, -1]] = True
-    return Samples(channel.t[keep], channel.values[keep])
+    return channel.where(keep)
 
 
 def missed(model: RecordModel, held: Bools, edges: Floats) -> float:
@@ -74,7 +76,7 @@ def halves(model: RecordModel) -> tuple[tuple[Recording, Unknowns], ...]:
     first, second = (window(model.recording, *ends) for ends in ((start, middle), (middle, end)))
     there = unknowns_of(after.points[k + 1])
     late = float(problem_of(second, model.testbed, model.params).line.t[0]) - middle
-    there = replace(there, q0=multiply(there.q0, exponential(late * there.w0)))
+    there = replace(there, q0=turned_on(there.q0, there.w0, late))
     return (first, model.fitted.point), (second, there)
 
 
@@ -86,8 +88,8 @@ def unexplained(
     known = settle(problem, at_rest(problem, learnt[1]), jumps, EVALUATIONS).point
     problem, jumps = posed_in(model, requested[0])
     held = np.ones(problem.layout.size, dtype=bool)
-    held[TURN], held[RATE] = False, False
-    held[problem.layout.size - 3 * problem.layout.bias :] = False
+    for free in (TURN, RATE, problem.layout.gyro_bias):
+        held[free] = False
     problem = replace(problem, prior=replace(problem.prior, held=held))
     guess = replace(known, q0=requested[1].q0, w0=requested[1].w0)
     return 2.0 * settle(problem, at_rest(problem, guess), jumps, EVALUATIONS).at.cost

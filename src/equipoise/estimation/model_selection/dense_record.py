@@ -25,10 +25,11 @@ from equipoise.estimation.events.record_model import (
 )
 from equipoise.estimation.model_selection.decimation import TURNED, Condensed
 from equipoise.estimation.model_selection.survey import survey
+from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
 from equipoise.estimation.output_error.problem import Problem, quickest_swing
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
-from equipoise.maths.attitude import exponential, multiply
+from equipoise.maths.attitude import turned_on
 from equipoise.model.recording import Recording, window
 from equipoise.model.testbed import Testbed
 
@@ -50,28 +51,23 @@ def first_gap(recording: Recording, testbed: Testbed) -> float:
     return found
 
 
-def surveyed_condensed(few: Condensed, params: Params) -> RecordModel:
-    """Return the model that a condensed record supports."""
+def fitted_means(few: Condensed, params: Params) -> tuple[Recording, Testbed, Params, Fitted]:
+    """Return the plain fit of a condensed record, of what record, with what sensors and terms."""
     recording, testbed, params = few.recording, few.testbed, replace(params, fineness=FINE)
     early = window(recording, recording.span[0], first_gap(recording, testbed))
-    return survey(recording, testbed, params, fit(recording, testbed, params, early=early))
+    return recording, testbed, params, fit(recording, testbed, params, early=early)
 
 
 def with_noise_of(few: Condensed, model: RecordModel, testbed: Testbed) -> Testbed:
     """Return the testbed with a row's noise by that of the means: times sqrt(k)."""
-    camera, gyro = model.testbed.attitude, model.testbed.gyro
-    attitude, rate = testbed.attitude, testbed.gyro
-    if attitude is not None and camera is not None:
-        attitude = replace(attitude, noise=camera.noise * few.attitude_rows**0.5)
-    if rate is not None and gyro is not None:
-        rate = replace(rate, noise=gyro.noise * few.rate_rows**0.5)
-    return replace(testbed, attitude=attitude, gyro=rate)
+    camera, gyro = camera_noise(model.testbed), gyro_noise(model.testbed)
+    return with_noise(testbed, camera * few.attitude_rows**0.5, gyro * few.rate_rows**0.5)
 
 
 def moved(fitted: Fitted, problem: Problem) -> Fitted:
     """Return a fit with its first attitude where that of another record of the motion begins."""
     point, late = fitted.point, float(problem.line.t[0] - fitted.problem.line.t[0])
-    q0 = multiply(point.q0, exponential(late * point.w0))
+    q0 = turned_on(point.q0, point.w0, late)
     return replace(fitted, point=replace(point, q0=q0))
 
 
@@ -101,7 +97,7 @@ def surveyed_densely(
     few: Condensed, recording: Recording, testbed: Testbed, params: Params
 ) -> RecordModel:
     """Return the model that a dense record supports, and the fit of all rows in it."""
-    model = surveyed_condensed(few, params)
+    model = survey(*fitted_means(few, params))
     whole = with_all_rows(few, model, recording, testbed)
     if not model.fitted.converged:
         return replace(whole, fitted=fitted_in(whole, active(whole), 1))

@@ -40,7 +40,7 @@ from equipoise.estimation.output_error.problem import Prior
 from equipoise.estimation.output_error.segment_jumps import Jump, walk
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, fit
-from equipoise.estimation.parameters.fit_parameters import FIXED, R, unknowns_of
+from equipoise.estimation.parameters.fit_parameters import R, unknowns_of
 from equipoise.estimation.tracker import tracker
 from equipoise.model.arrays import Floats, Series, Series1, Vector3
 from equipoise.model.estimate import COM, Course, Estimate
@@ -81,11 +81,11 @@ def walking(nodes: Series1, names: tuple[str, ...], sd: Floats) -> tuple[Jump, .
     return walk((nodes[1:] + nodes[:-1]) / 2, names, sd)
 
 
-def begun(recording: Recording, testbed: Testbed, params: Params, com_walk: float) -> Drifting:
-    """Return the optimum with the walk that is expected (m/sqrt(s))."""
+def begun(recording: Recording, testbed: Testbed, params: Params) -> Drifting:
+    """Return the optimum with the walk that is expected."""
     nodes = node_times(recording)
     names = tuple(name for name in COM if name not in params.hold)
-    sd = np.full(len(names), com_walk * float(np.sqrt(nodes[1] - nodes[0])))
+    sd = np.full(len(names), COM_WALK * float(np.sqrt(nodes[1] - nodes[0])))
     params = replace(
         with_free_vertical(recording, testbed, params), jumps=walking(nodes, names, sd)
     )
@@ -114,11 +114,9 @@ def coloured(found: Drifting, up: Vector3) -> Drifting:
     return refitted(found, found.sd * np.sqrt(densest(steps, 1)), up)
 
 
-def drifting(
-    recording: Recording, testbed: Testbed, params: Params, com_walk: float = COM_WALK
-) -> Drifting:
-    """Return the optimum with a walk of com as the record shows it; ``com_walk`` is expected."""
-    found, up = begun(recording, testbed, params, com_walk), testbed.up
+def drifting(recording: Recording, testbed: Testbed, params: Params) -> Drifting:
+    """Return the optimum with a walk of com as the record shows it."""
+    found, up = begun(recording, testbed, params), testbed.up
     if not found.names or not np.isfinite(found.fitted.at.cost):
         return found
     expected = float(found.sd[0])
@@ -136,7 +134,7 @@ def com_rows(found: Drifting) -> Floats:
     rows[:, :, R] = np.eye(3)
     for j, axis in enumerate("xyz"):
         if f"drift_{axis}" in layout.terms:
-            rows[:, j, FIXED + layout.terms.index(f"drift_{axis}")] = nodes - nodes[0]
+            rows[:, j, layout.names.index(f"drift_{axis}")] = nodes - nodes[0]
     return rows
 
 
@@ -181,12 +179,10 @@ def drift_reason(found: Drifting, after: Smoothed, concluded: Estimate) -> Reaso
     return Reason(Why.NO_DRIFT if found.gained < OBSERVED else Why.DRIFTS, (), numbers)
 
 
-def estimate(
-    recording: Recording, testbed: Testbed, params: Params, com_walk: float = COM_WALK
-) -> Estimate:
-    """Return the estimate of a record, with the course of com; ``com_walk`` is in m/sqrt(s)."""
+def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
+    """Return the estimate of a record, with the course of com."""
     recording = arranged(recording, testbed.mass_names)
-    found = drifting(recording, testbed, params, com_walk)
+    found = drifting(recording, testbed, params)
     try:
         concluded = conclude(found.fitted, METHOD, recording)
         if not found.fitted.converged:

@@ -62,7 +62,7 @@ def anchored(
     of a body ten times too small would pull at what the data do show.
     """
     found, guess = fitted.point.body(testbed.body.mass), testbed.body
-    moved = np.diag(found.inertia_P - guess.inertia_P) / (np.trace(guess.inertia_P) / 3)
+    moved = np.diag(found.inertia_P - guess.inertia_P) / guess.mean_moment
     if params.use_prior or not is_near(fitted) or float(np.abs(moved).max()) < OUTLYING:
         return testbed, fitted
     nearer = replace(testbed, body=found)

@@ -10,15 +10,22 @@ the present optimum and the group's coefficients having a plausible size each (W
 needs a lead (``SURE``; Kass and Raftery 1995 call 6 strong). An error of a sensor needs none: where
 it is as likely there as not, leaving it out moves com by several sd.
 
+An unknown event may resemble a term, and a term events. So a term that promises as much as an
+event is taken before it (``is_lawful``), and every term is put to the test again when all else is
+known (``bared``).
+
 Cannot separate terms that do the same within the record: the first that predicts is kept.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.record_model import RecordModel, refitted
-from equipoise.estimation.model_selection.cross_validation import posed_in
+from equipoise.estimation.events.event_search import CLEAR
+from equipoise.estimation.events.jump_test import threshold
+from equipoise.estimation.events.record_model import RecordModel, farther, improbability, refitted
+from equipoise.estimation.model_selection.cross_validation import posed_in, predicts_better
 from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, with_free_vertical
 from equipoise.estimation.output_error.problem import changes
 from equipoise.estimation.output_error.solution import evaluate
@@ -32,6 +39,7 @@ GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
 DELAY = sensor_terms.GROUPS["camera_delay"]
 SURE = 6.0  # 2 ln ratio
 GROUPS = (PLUMB, HEADING, DELAY, *GYRO, *torque_terms.GROUPS.values())
+Refused = set[tuple[str, ...]]
 
 
 def is_of_sensors(group: tuple[str, ...]) -> bool:
@@ -103,8 +111,7 @@ def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
     if is_of_sensors(group):
         return sensor_sizes(group, model.testbed.attitude)
     body = model.testbed.body
-    moment = float(np.trace(body.inertia_P)) / 3
-    return term_sizes(group, moment, body.mass * model.testbed.gravity)
+    return term_sizes(group, body.mean_moment, body.mass * model.testbed.gravity)
 
 
 def surplus(model: RecordModel, group: tuple[str, ...]) -> float:
@@ -127,9 +134,43 @@ def lead(group: tuple[str, ...]) -> float:
     return 0.0 if is_of_sensors(group) else SURE
 
 
-def best_group(model: RecordModel, refused: set[tuple[str, ...]]) -> tuple[tuple[str, ...], float]:
+def best_group(model: RecordModel, refused: Refused) -> tuple[tuple[str, ...], float]:
     """Return the group that promises most, and by how much beyond its lead."""
     open_to = [group for group in candidates(model) if group not in refused]
     found = [surplus(model, group) - lead(group) for group in open_to]
     most = int(np.argmax(found)) if found else 0
     return (open_to[most], found[most]) if found else ((), -np.inf)
+
+
+def likeliest(models: Sequence[RecordModel]) -> RecordModel:
+    """Return the model in which the record is most probable."""
+    return min(models, key=improbability)
+
+
+def extended(model: RecordModel, group: tuple[str, ...], refused: Refused) -> RecordModel:
+    """Return the model with a group of terms, if that predicts better; refuse it otherwise."""
+    richer = refitted(with_group(model, group))
+    if richer.fitted.converged and predicts_better(model, richer):
+        return richer
+    refused.add(group)
+    return model
+
+
+def is_lawful(richer: RecordModel, shaken: RecordModel, group: tuple[str, ...]) -> bool:
+    """Say whether a term explains about as much as an event that promises, too.
+
+    Each unknown counting as much as one of an event, or by how likely the record is with either:
+    coefficients far smaller than their plausible size do badly by the latter, many by the former.
+    Where both do, the term is taken: it leaves open more than an event, which has come and gone.
+    """
+    counted = threshold(richer.spacing) * (len(group) / 3 - 1)
+    if farther(richer, shaken) + counted < CLEAR:
+        return True
+    return improbability(richer) - improbability(shaken) < CLEAR
+
+
+def bared(model: RecordModel, requested: Params) -> RecordModel:
+    """Return the model without the terms that later finds have made needless."""
+    for group in added_groups(model, requested):
+        model = likeliest([refitted(without_group(model, group)), model])
+    return model

@@ -13,7 +13,7 @@ import numpy as np
 
 from equipoise.estimation.events.event_report import reported_events
 from equipoise.estimation.events.event_time_covariance import with_moments
-from equipoise.estimation.events.record_model import RecordModel, refitted
+from equipoise.estimation.events.record_model import RecordModel, jumping, refitted
 from equipoise.estimation.model_selection.decimation import condensed
 from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
@@ -31,7 +31,7 @@ from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
 from equipoise.estimation.output_error.outlier_rejection import without_outliers
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
-from equipoise.estimation.output_error.trajectory import METHOD, Params, at_rest, problem_of
+from equipoise.estimation.output_error.trajectory import METHOD, Params, at_rest
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Residual
@@ -42,6 +42,7 @@ from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
 FEWEST = 4  # rows
+HELD_OUT = 0.25  # share of the record to predict instead of fit, for the residual
 
 
 def predicted_left(recording: Recording, fitted: Fitted, left: Fitted, cut: float) -> Floats:
@@ -68,7 +69,7 @@ def steady(model: RecordModel) -> RecordModel:
     return refitted(replace(model, walk=np.zeros(3))) if model.wanders else model
 
 
-def held_out(fitted_model: RecordModel, share: float, residual: Residual) -> Residual:
+def held_out(fitted_model: RecordModel, residual: Residual) -> Residual:
     """Return the residual with what a fit of the first part predicts for the rest.
 
     Both without process noise, whose future nobody knows.
@@ -76,11 +77,9 @@ def held_out(fitted_model: RecordModel, share: float, residual: Residual) -> Res
     record_model = steady(fitted_model)
     recording, fitted = record_model.recording, record_model.fitted
     first, last = recording.span
-    cut = last - share * (last - first)
+    cut = last - HELD_OUT * (last - first)
     part = window(recording, first, cut)
-    params = replace(record_model.params, jumps=fitted.problem.jumps)
-    problem = problem_of(part, record_model.testbed, params)
-    jumps = carried(fitted.problem.jumps, fitted.jumps, problem.jumps)
+    problem, jumps = jumping(record_model, part, fitted.problem.jumps)
     early = settle(problem, at_rest(problem, fitted.point), jumps)
     fresh = predicted_left(recording, fitted, early, cut)
     rms = float(np.sqrt(np.mean(fresh**2))) if len(fresh) else None
@@ -137,13 +136,17 @@ def check_sensors(recording: Recording, testbed: Testbed) -> None:
             raise InputError(where, f"none, but {len(rows)} rows of it", "its noise")
 
 
+def too_few(recording: Recording, testbed: Testbed) -> bool:
+    """Say whether rows are too few to fit; InputError for rows of a sensor that there is not."""
+    check_sensors(recording, testbed)
+    return recording.rows < FEWEST
+
+
 def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of a record, with its residual on a part that was held out."""
     recording = arranged(recording, testbed.mass_names)
-    check_sensors(recording, testbed)
-    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
-    if rows < FEWEST:
-        nothing = outcome(Why.TOO_FEW_ROWS, rows=rows)
+    if too_few(recording, testbed):
+        nothing = outcome(Why.TOO_FEW_ROWS, rows=recording.rows)
         return Estimate(METHOD, nothing, (), np.zeros((0, 0)))
     if not params.robust:
         return estimate_of(recording, testbed, params)
@@ -176,5 +179,5 @@ def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Esti
     concluded = with_moments(concluded, model)
     concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
-    residual = held_out(model, params.hold_out, concluded.residual)
+    residual = held_out(model, concluded.residual)
     return replace(concluded, residual=residual, outcome=outcome_of(model, params, concluded))

@@ -22,7 +22,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.detection_threshold import threshold
 from equipoise.estimation.events.event_search import (
     colour_of,
     doubted,
@@ -30,6 +29,7 @@ from equipoise.estimation.events.event_search import (
     pruned,
     settled,
 )
+from equipoise.estimation.events.jump_test import threshold
 from equipoise.estimation.events.noise_identification import (
     calibrated,
     excesses,
@@ -41,12 +41,13 @@ from equipoise.estimation.events.process_noise_spectrum import coloured
 from equipoise.estimation.events.record_model import Happening, RecordModel, improbability, smoothed
 from equipoise.estimation.model_selection import survey_reasons
 from equipoise.estimation.model_selection.initial_model import is_close
-from equipoise.estimation.model_selection.model_choice import best_group, levelled
-from equipoise.estimation.model_selection.term_selection import (
+from equipoise.estimation.model_selection.model_choice import (
     Refused,
     bared,
+    best_group,
     extended,
     is_lawful,
+    levelled,
     likeliest,
 )
 from equipoise.estimation.output_error.solution import Fitted

@@ -31,7 +31,7 @@ from equipoise.sensors.timing import measured_at
 WALK = 3e-7  # rad/s/sqrt(s), chosen: what a MEMS gyro's bias walks, 0.1 deg/s in two days
 BIAS_SD = 0.02  # rad/s, chosen: of a gyro that the testbed does not state
 GYRO, CAMERA = 0, 1
-T, Q, B, P, RATE = 0, slice(1, 5), slice(5, 8), slice(8, 11), slice(11, 14)  # of the state
+T, Q, B, RATE = 0, slice(1, 5), slice(5, 8), slice(11, 14)  # of the state
 
 
 @dataclass(frozen=True, slots=True, eq=False)

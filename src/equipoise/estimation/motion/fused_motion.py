@@ -80,13 +80,8 @@ def led_motion(recording: Recording, testbed: Testbed) -> LedMotion:
     if attitude is None:
         return by_gyro(whole, piece, testbed)
     camera = Samples(measured_at(attitude.t, testbed.attitude), attitude.values)
-    parts = [led(taken(whole, piece == k), camera, testbed) for k in range(piece[-1] + 1)]
+    parts = [led(whole.where(piece == k), camera, testbed) for k in range(piece[-1] + 1)]
     return thinned(joined([part for part in parts if part is not None]))
-
-
-def taken(channel: Samples, mask: Bools) -> Samples:
-    """Return some rows of a channel."""
-    return Samples(channel.t[mask], channel.values[mask])
 
 
 def joined(parts: list[LedMotion], notes: tuple[Reason, ...] = ()) -> LedMotion:
@@ -107,7 +102,7 @@ def by_camera(recording: Recording, testbed: Testbed) -> LedMotion:
     piece, parts = pieces_of(attitude.t), list[LedMotion]()
     for k in range(piece[-1] + 1):
         if np.sum(piece == k) >= FEWEST:
-            part = replace(recording, attitude=taken(attitude, piece == k), rate=None)
+            part = replace(recording, attitude=attitude.where(piece == k), rate=None)
             parts.append(LedMotion(*sampled_motion(part, testbed), np.zeros(0, np.int64)))
     return thinned(joined(parts))
 
@@ -115,7 +110,7 @@ def by_camera(recording: Recording, testbed: Testbed) -> LedMotion:
 def by_gyro(rate: Samples, piece: Ints, testbed: Testbed) -> LedMotion:
     """Return the motion that a gyro alone shows: its longest piece, from level."""
     longest = int(np.argmax(np.bincount(piece)))
-    part = taken(rate, piece == longest)
+    part = rate.where(piece == longest)
     q = integrate_rate(part.t, part.values, level(testbed.up))
     reported = () if piece[-1] == 0 else (Reason(EstimateReason.LONGEST_PIECE_ONLY),)
     whole = np.zeros(len(part.t), np.int64)
@@ -127,10 +122,10 @@ def led(rate: Samples, camera: Samples, testbed: Testbed) -> LedMotion | None:
     inside = (camera.t >= rate.t[0]) & (camera.t <= rate.t[-1])
     if inside.sum() < FEWEST or len(rate) < FEWEST:
         return None
-    observed = taken(camera, inside)
+    observed = camera.where(inside)
     bias = first_bias(rate, observed)
     base, off = followed(rate, observed, bias)
-    observed = taken(observed, ~stand_off(off - median_near(off)))
+    observed = observed.where(~stand_off(off - median_near(off)))
     for _ in range(PASSES):
         bias = bias + bias_left(rate.t, base, observed.t, followed(rate, observed, bias)[1])
         base, off = followed(rate, observed, bias)

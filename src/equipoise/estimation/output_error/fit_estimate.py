@@ -88,7 +88,7 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
     k, line = len(problem.maps.momentum), problem.line
     last, seconds = line.known[-1], float(line.t[-1] - line.t[0])
     d, response = last[KNOWN_D : KNOWN_D + k], last[KNOWN_D + k :]
-    drifts = [(j, FIXED + layout.terms.index(f"drift_{axis}")) for j, axis in enumerate("xyz")
+    drifts = [(j, layout.names.index(f"drift_{axis}")) for j, axis in enumerate("xyz")
               if f"drift_{axis}" in layout.terms]  # fmt: skip
     stepped = any(set(COM) & set(jump.names) for jump in problem.jumps)
     if not (np.any(d) or drifts or stepped):
@@ -98,7 +98,7 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
     rows[:, R] = np.eye(3)
     for j, (owner, error) in enumerate(problem.errors.owner):
         actual[owner] += response[j] * fitted.point.error[error]
-        column = FIXED + len(layout.terms) + error
+        column = layout.mass_errors.start + error
         rows[:, column] += response[j] * problem.maps.first_moment[owner] / problem.mass
     for j, column in drifts:
         rows[j, column] = seconds
@@ -160,7 +160,7 @@ def parameters_of(
 def without_scale(view: Visibility, layout: Layout) -> Visibility:
     """Return the view of a fit in which one moment of inertia was held only for the search."""
     hidden = view.hidden.copy()
-    hidden[JP.start : FIXED + len(layout.terms)] = True
+    hidden[JP.start : layout.torques.stop] = True
     return Visibility(view.covariance, hidden, (OPEN, *view.unobservable), True, view.unseen)
 
 
@@ -170,9 +170,10 @@ def without_anchor(normal: Square, fitted: Fitted) -> Square:
     return normal - np.diag(np.where(prior.held, 0.0, prior.anchor))
 
 
-def visibility_of(fitted: Fitted, values: Floats) -> Visibility:
-    """Return covariance and visibility at a fit, ``values`` being its physical coordinates."""
+def visibility_of(fitted: Fitted) -> Visibility:
+    """Return covariance and visibility at a fit."""
     problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
     size = natural_sizes(fitted.point, problem.mass, layout)
     information = without_anchor(fitted.at.normal, fitted)
     view = examine_unheld(
@@ -180,6 +181,12 @@ def visibility_of(fitted: Fitted, values: Floats) -> Visibility:
     )
     view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
     return without_scale(view, layout) if problem.scale_open else view
+
+
+def smoothed_residual(fitted: Fitted) -> tuple[Smoothed | None, Residual]:
+    """Return what is known of every stretch of a fit with jumps, and what the model leaves."""
+    after = smooth_at(fitted) if fitted.problem.jumps else None
+    return after, residual_of(fitted, freedom(fitted, after) if after else 0.0)
 
 
 def spread_of(fitted: Fitted, coloured: float = 1.0) -> tuple[tuple[Parameter, ...], Floats]:
@@ -192,8 +199,7 @@ def spread_of(fitted: Fitted, coloured: float = 1.0) -> tuple[tuple[Parameter, .
     covariance = inverse_where(fitted.at.normal, ~held)
     covariance += by_sag(fitted, covariance)
     view = Visibility(covariance, np.zeros_like(held), (), False, np.zeros((len(held), 0)))
-    after = smooth_at(fitted) if fitted.problem.jumps else None
-    residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
+    after, residual = smoothed_residual(fitted)
     return parameters_of(fitted, view, max(widening(residual), coloured), after)
 
 
@@ -205,9 +211,8 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     """
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
-    view = visibility_of(fitted, values)
-    after = smooth_at(fitted) if fitted.problem.jumps else None
-    residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
+    view = visibility_of(fitted)
+    after, residual = smoothed_residual(fitted)
     factor = max(widening(residual), coloured)
     parameters, covariance = parameters_of(fitted, view, factor, after)
     return Estimate(

@@ -13,11 +13,11 @@ from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, cor
 from equipoise.estimation.regression.formulations.columns import columns, known_momentum
 from equipoise.estimation.regression.formulations.momentum import laboratory_balance
 from equipoise.maths import pseudo_inertia
-from equipoise.maths.attitude import exponential, multiply, to_matrix
+from equipoise.maths.attitude import to_matrix, turned_on
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats, Matrix3, Vector3
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import BODY
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -42,9 +42,9 @@ def start(
     w0 = first_rate(recording, testbed, motion, inertia, momentum)
     inertia, com = kept(inertia, com, testbed, hold)
     inertia_C = inertia - parallel_axis(testbed.body.mass, com)
-    turn = exponential(w0 * (first - motion.t[0]))
+    q0 = turned_on(motion.q[0], w0, first - motion.t[0])
     return Unknowns(
-        multiply(motion.q[0], turn), w0, pseudo_inertia.from_inertia(inertia_C), com,
+        q0, w0, pseudo_inertia.from_inertia(inertia_C), com,
         np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(len(layout.errors)), np.zeros(3),
     )  # fmt: skip
 
@@ -74,9 +74,8 @@ def kept(
         np.concatenate([pack_symmetric(J), r])
         for J, r in ((inertia, com), (testbed.body.inertia_P, testbed.body.com))
     )
-    names = (*INERTIA, *COM)
     for name in hold:
-        k = names.index(name)
+        k = BODY.index(name)
         stretch = wanted[k] / found[k] if wanted[k] * found[k] > 0 else 1.0
         found *= stretch if name == hold[0] else 1.0
         found[k] = wanted[k]

@@ -15,16 +15,16 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.dynamics.propagation import body_of, propagate
-from equipoise.dynamics.timeline import Timeline
 from equipoise.estimation.motion.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.output_error.kernels.segments import Cuts
 from equipoise.estimation.output_error.problem import Problem, posed
-from equipoise.estimation.output_error.segment_jumps import RATE, TURN, Jump
+from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.parameters.fit_parameters import Unknowns
-from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.maths.attitude import difference, turned_on
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Series1, Vector3
+from equipoise.model.estimate import ATTITUDE, RATE
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -39,18 +39,13 @@ Joints = tuple[Jump, ...]
 def state_near(motion: SampledMotion, t: float) -> tuple[Quaternion, Vector3]:
     """Return the measured attitude and rate at a time: those of the nearest row, turned on."""
     k = int(np.argmin(np.abs(motion.t - t)))
-    return multiply(motion.q[k], exponential((t - motion.t[k]) * motion.w[k])), motion.w[k]
+    return turned_on(motion.q[k], motion.w[k], t - motion.t[k]), motion.w[k]
 
 
 def joints(times: Series1, attitude_sd: float, rate_sd: float) -> Joints:
     """Return jumps of attitude and rate at these times."""
     sd = (attitude_sd,) * 3 + (rate_sd,) * 3
-    return tuple(Jump(float(t), (*TURN, *RATE), sd) for t in times)
-
-
-def section(line: Timeline, first: int, last: int) -> Timeline:
-    """Return the nodes from one to another of a timeline."""
-    return line._replace(t=line.t[first : last + 1], known=line.known[first : last + 1])
+    return tuple(Jump(float(t), (*ATTITUDE, *RATE), sd) for t in times)
 
 
 def missing(problem: Problem, point: Unknowns, motion: SampledMotion, cuts: Cuts) -> Floats:
@@ -59,9 +54,10 @@ def missing(problem: Problem, point: Unknowns, motion: SampledMotion, cuts: Cuts
     inertia, moment = pack_symmetric(body.inertia_P), body.first_moment
     rigid = body_of(body.mass, problem.gravity, inertia, moment, point.torque)
     out = np.zeros((len(cuts.nodes) - 2, 6))
-    q, w = point.q0, point.w0
+    q, w, line = point.q0, point.w0, problem.line
     for k in range(len(out)):
-        part = section(problem.line, int(cuts.nodes[k]), int(cuts.nodes[k + 1]))
+        nodes = slice(int(cuts.nodes[k]), int(cuts.nodes[k + 1]) + 1)
+        part = line._replace(t=line.t[nodes], known=line.known[nodes])
         end = propagate(rigid, problem.maps, part, q, w)
         q, w = state_near(motion, float(part.t[-1]))
         out[k, :3], out[k, 3:] = difference(q, end.q[-1]), w - end.rate[-1]

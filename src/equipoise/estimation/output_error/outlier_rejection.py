@@ -12,12 +12,12 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.regression.solvers.robust import MEDIAN
 from equipoise.model.arrays import Bools, Series
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
 OUTLYING = 8.0  # chosen: of the sd of an axis; one sound row of 1e12 exceeds it
-MEDIAN = 1.5382  # of |e| for three axes of unit noise
 MOST = 0.2  # chosen: with more outliers, it is the model
 
 
@@ -26,7 +26,7 @@ def outlying(left: Series) -> Bools:
     size = np.linalg.norm(left, axis=1)
     if not len(size):
         return np.zeros(0, dtype=bool)
-    scale = max(float(np.median(size)) / MEDIAN, 1.0)
+    scale = max(float(np.median(size)) / MEDIAN[3], 1.0)
     outlying = size > OUTLYING * scale
     return outlying if outlying.mean() < MOST else np.zeros(len(size), dtype=bool)
 
@@ -35,7 +35,7 @@ def without(channel: Samples | None, outlying: Bools) -> Samples | None:
     """Return a channel without some rows."""
     if channel is None or not outlying.any():
         return channel
-    return Samples(channel.t[~outlying], channel.values[~outlying])
+    return channel.where(~outlying)
 
 
 def without_outliers(

@@ -17,7 +17,6 @@ from equipoise.estimation.output_error.kernels.normal_equations import Measureme
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump, cuts_of, inside
 from equipoise.estimation.parameters.fit_parameters import (
     CORE,
-    FIXED,
     JP,
     TURN,
     Layout,
@@ -100,10 +99,9 @@ def prior_of(
         sd[R] = np.maximum(testbed.com_sd, KNOWN_COM)
     for k, name in enumerate(layout.errors):
         sd[names.index(name)] = errors.sd[k]
-    first = FIXED + len(layout.terms) + len(layout.errors)
-    sd[first : first + len(layout.sensor)] = sensor_sizes(layout.sensor, testbed.attitude)
+    sd[layout.sensors] = sensor_sizes(layout.sensor, testbed.attitude)
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
-        sd[-3:] = testbed.gyro.bias_sd
+        sd[layout.gyro_bias] = testbed.gyro.bias_sd
     anchor = anchors(testbed, layout, torque_anchor)
     held = np.array([name in hold for name in names])
     return Prior(mean, sd**-2 + anchor, anchor, held)
@@ -112,8 +110,7 @@ def prior_of(
 def with_typical_torques(prior: Prior, layout: Layout) -> Prior:
     """Return a prior that also knows how large torques are on benches."""
     weight = prior.weight.copy()
-    last = FIXED + len(layout.terms)
-    weight[FIXED:last] += np.array([typical(term) for term in layout.terms]) ** -2.0
+    weight[layout.torques] += np.array([typical(term) for term in layout.terms]) ** -2.0
     return replace(prior, weight=weight)
 
 
@@ -123,11 +120,11 @@ def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
     Inertia within its own size, com within ten sd, torques within ``torque_anchor`` natural sizes.
     """
     weight = np.zeros(layout.size)
-    inertia = float(np.trace(testbed.body.inertia_P)) / 3
+    inertia = testbed.body.mean_moment
     weight[TURN] = 1.0  # a step of 1 rad: without a camera nothing else ends a turn in heading
     weight[JP], weight[R] = inertia**-2, (ANCHOR * testbed.com_sd) ** -2
     size = term_sizes(layout.terms, inertia, testbed.body.mass * testbed.gravity)
-    weight[FIXED : FIXED + len(size)] = (torque_anchor * size) ** -2
+    weight[layout.torques] = (torque_anchor * size) ** -2
     return weight
 
 

@@ -14,9 +14,6 @@ from equipoise.estimation.output_error.kernels.segments import Cuts
 from equipoise.estimation.parameters.fit_parameters import Layout
 from equipoise.model.arrays import Floats, Series1
 
-TURN = ("attitude_x", "attitude_y", "attitude_z")
-RATE = ("rate_x", "rate_y", "rate_z")
-
 
 @dataclass(frozen=True, slots=True)
 class Jump:

@@ -32,7 +32,6 @@ from equipoise.actuators.sliding_masses import MassMaps
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted, evaluate
-from equipoise.estimation.parameters.fit_parameters import FIXED
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Series1, Series3, Square, Vector3
 from equipoise.model.torque_terms import GROUPS, TERMS
@@ -74,7 +73,7 @@ def lateness(fitted: Fitted, covariance: Square) -> Floats:
     late = np.zeros(len(errors.sag))
     for mass, j in errors.owner:
         if errors.names[j].startswith(LAG):
-            at = FIXED + len(layout.terms) + j
+            at = layout.mass_errors.start + j
             late[mass] = np.hypot(fitted.point.error[j], np.sqrt(covariance[at, at]))
     return late
 

@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.actuators.mass_errors import MassErrors
+from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.initial_guess import start
 from equipoise.estimation.output_error.multiple_shooting import shot
@@ -44,7 +45,7 @@ from equipoise.estimation.output_error.solution import (
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, core_of
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import BODY, INERTIA
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
@@ -70,7 +71,6 @@ class Params:
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     robust: bool = False  # Huber's loss
     fineness: float = 1.0  # by which integration steps are shorter than estimates need
-    hold_out: float = 0.25  # share of the record to predict instead of fit, for the residual
     typical: bool = False  # torques are as large as benches have them (``model.torque_terms``)
 
 
@@ -108,7 +108,7 @@ def is_scale_open(recording: Recording, testbed: Testbed, params: Params) -> boo
     """
     if params.use_prior or changes(recording):
         return False
-    values = dict(zip((*INERTIA, *COM), core_of(testbed.body), strict=True))
+    values = dict(zip(BODY, core_of(testbed.body), strict=True))
     return not any(values[name] for name in params.hold)
 
 
@@ -131,8 +131,7 @@ def problem_of(
     if params.typical:
         prior = with_typical_torques(prior, layout)
     limit = HUBER if params.robust else 0.0
-    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
-    longest = longest_step(testbed, fastest_rate(recording), rows) / params.fineness
+    longest = longest_step(testbed, fastest_rate(recording), recording.rows) / params.fineness
     return pose(recording, testbed, layout, errors, prior, longest, limit, scale_open, params.jumps)
 
 
@@ -194,12 +193,8 @@ def few_swings(recording: Recording) -> float:
 
 def coarsened(testbed: Testbed) -> Testbed:
     """Return the testbed with sensors that are no better than the model is early in the search."""
-    camera, gyro = testbed.attitude, testbed.gyro
-    return replace(
-        testbed,
-        attitude=camera and replace(camera, noise=max(camera.noise, COARSE)),
-        gyro=gyro and replace(gyro, noise=max(gyro.noise, COARSE)),
-    )
+    camera, gyro = camera_noise(testbed), gyro_noise(testbed)
+    return with_noise(testbed, max(camera, COARSE), max(gyro, COARSE))
 
 
 def at_rest(problem: Problem, point: Unknowns) -> Unknowns:

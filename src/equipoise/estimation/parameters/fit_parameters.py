@@ -19,7 +19,8 @@ from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats, Ints, Quaternion, Vector3, Vector6
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import ATTITUDE, COM, INERTIA
+from equipoise.model.estimate import RATE as RATES
 from equipoise.model.mass_properties import MassProperties, from_centre
 from equipoise.model.testbed import PLUMB_SD, AttitudeSensor
 
@@ -48,11 +49,30 @@ class Layout:
         return FIXED + len(self.terms) + len(self.errors) + len(self.sensor) + 3 * self.bias
 
     @property
+    def torques(self) -> slice:
+        """Return where the torque coefficients stand."""
+        return slice(FIXED, FIXED + len(self.terms))
+
+    @property
+    def mass_errors(self) -> slice:
+        """Return where the errors of the masses stand."""
+        return slice(self.torques.stop, self.torques.stop + len(self.errors))
+
+    @property
+    def sensors(self) -> slice:
+        """Return where the sensors' coefficients stand."""
+        return slice(self.mass_errors.stop, self.mass_errors.stop + len(self.sensor))
+
+    @property
+    def gyro_bias(self) -> slice:
+        """Return where the gyro's bias stands."""
+        return slice(self.sensors.stop, self.size)
+
+    @property
     def names(self) -> tuple[str, ...]:
         """Return the names in physical coordinates."""
-        first = ("attitude_x", "attitude_y", "attitude_z", "rate_x", "rate_y", "rate_z")
         bias = ("gyro_bias_x", "gyro_bias_y", "gyro_bias_z") if self.bias else ()
-        return (*first, *INERTIA, *COM, *self.terms, *self.errors, *self.sensor, *bias)
+        return (*ATTITUDE, *RATES, *INERTIA, *COM, *self.terms, *self.errors, *self.sensor, *bias)
 
     @property
     def units(self) -> tuple[str, ...]:
@@ -61,12 +81,8 @@ class Layout:
         terms = tuple(torque_terms.unit_of(term) for term in self.terms)
         errors = tuple(unit_of(name) for name in self.errors)
         bias = ("rad/s",) * (3 * self.bias)
-        return first + terms + errors + self.sensor_units + bias
-
-    @property
-    def sensor_units(self) -> tuple[str, ...]:
-        """Return the units of the sensors' coefficients."""
-        return tuple(sensor_terms.unit_of(term) for term in self.sensor)
+        sensor = tuple(sensor_terms.unit_of(term) for term in self.sensor)
+        return first + terms + errors + sensor + bias
 
     @property
     def torque_index(self) -> list[int]:

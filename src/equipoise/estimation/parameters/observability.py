@@ -11,7 +11,6 @@ import numpy as np
 
 from equipoise.actuators.mass_errors import unit_of
 from equipoise.estimation.parameters.fit_parameters import (
-    FIXED,
     JP,
     RATE,
     TURN,
@@ -47,16 +46,14 @@ class Visibility:
 def natural_sizes(point: Unknowns, mass: float, layout: Layout) -> Floats:
     """Return the size in which each coordinate is measured."""
     size = np.ones(layout.size)
-    inertia = float(np.trace(point.body(mass).inertia_P)) / 3
+    inertia = point.body(mass).mean_moment
     distance = max(float(np.linalg.norm(point.com)), DISTANCE)
     size[TURN], size[RATE], size[JP], size[R] = 1.0, 0.1, inertia, distance
-    n = len(layout.terms)
-    size[FIXED : FIXED + n] = term_sizes(layout.terms, inertia, 9.81 * mass)
+    size[layout.torques] = term_sizes(layout.terms, inertia, 9.81 * mass)
     # errors of the masses: 1 mm, 1 s of a lag, all of a gain, a radian
     errors = [1e-3 if unit_of(name) == "m" else 1.0 for name in layout.errors]
-    size[FIXED + n : FIXED + n + len(errors)] = errors
-    if layout.bias:
-        size[-3:] = 0.1
+    size[layout.mass_errors] = errors
+    size[layout.gyro_bias] = 0.1
     return size
 
 

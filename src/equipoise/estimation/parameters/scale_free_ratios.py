@@ -9,14 +9,11 @@ unobservable direction other than the scale is unobservable, too.
 
 import numpy as np
 
+from equipoise.estimation.parameters.observability import PART
 from equipoise.model.arrays import Floats, Square
-from equipoise.model.estimate import COM, INERTIA, Parameter
+from equipoise.model.estimate import BODY, Parameter
 
-NAMES = (*INERTIA, *COM)
 ORDER = (6, 7, 8, 0, 1, 2, 3, 4, 5)  # of report: centre of mass first
-
-
-PART = 1e-3  # chosen: a smaller part in an unseen direction is rounding, as in ``observability``
 
 
 def largest_observable(values: Floats, unseen: Floats) -> int:
@@ -42,6 +39,6 @@ def ratios_of(values: Floats, covariance: Square, unseen: Floats) -> tuple[Param
         sd = float(np.sqrt(gradient @ covariance @ gradient)) / float(values[top])
         observed = not np.any(np.abs(gradient @ unseen) > PART * size[k])
         unit = "1/(kg m)" if k > 5 else "-"
-        name = f"{NAMES[k]}/{NAMES[top]}"
+        name = f"{BODY[k]}/{BODY[top]}"
         found.append(Parameter(name, unit, ratio, sd if observed else np.inf, bool(observed)))
     return tuple(found)

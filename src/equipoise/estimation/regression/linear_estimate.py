@@ -9,13 +9,13 @@ from equipoise.estimation.parameters.fit_parameters import term_sizes
 from equipoise.estimation.parameters.observability import DISTANCE, OPEN, Visibility, examine
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.estimation.regression.error_indices import error_indices
-from equipoise.estimation.regression.formulations.rows import BODY, Posed, Rows, body_with, centred
+from equipoise.estimation.regression.formulations.rows import Posed, Rows, body_with, centred
 from equipoise.estimation.regression.solvers.recursion import Passed
 from equipoise.maths.linalg import inverse_spd, lag_one
 from equipoise.maths.whiteness import portmanteau
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import COM, INERTIA, Course, Estimate, Parameter, Residual
+from equipoise.model.estimate import BODY, COM, INERTIA, Course, Estimate, Parameter, Residual
 from equipoise.model.mass_properties import is_possible
 from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
@@ -52,7 +52,8 @@ def conclude(
 ) -> Estimate:
     """Return the estimate; ``pinned`` was held only because the scale is open."""
     whole = total(answer)
-    view = examine(inverse_spd(whole + rounding(whole)), *scale_and_sizes(posed, rows, answer),
+    rounding = np.diag(1e-12 * np.diag(whole) + 1e-60)  # keeps the inverse finite
+    view = examine(inverse_spd(whole + rounding), *scale_and_sizes(posed, rows, answer),
                    rows.names)  # fmt: skip
     names, values, covariance, hidden = texts(posed, rows, answer, view, whole, pinned)
     open_scale = bool(pinned)
@@ -91,15 +92,10 @@ def total(answer: Answer) -> Square:
     return answer.excess * answer.covariance + fixed.T @ fixed
 
 
-def rounding(covariance: Square) -> Square:
-    """Return a diagonal that keeps the inverse of a covariance finite."""
-    return np.diag(1e-12 * np.diag(covariance) + 1e-60)
-
-
 def scale_and_sizes(posed: Posed, rows: Rows, answer: Answer) -> tuple[Floats, Floats]:
     """Return the direction in which J and com grow alike, and sizes natural to each unknown."""
     body = posed.testbed.body
-    inertia = float(np.trace(body.inertia_P)) / 3
+    inertia = body.mean_moment
     com = [answer.values[k] for k, name in enumerate(rows.names) if name in COM]
     distance = max(float(np.linalg.norm(com)), DISTANCE)
     known = {**dict.fromkeys(INERTIA, inertia), **dict.fromkeys(COM, distance)}

@@ -26,7 +26,7 @@ from scipy.stats import chi2
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.actuators.stops import travels
 from equipoise.dynamics.timeline import straight_lines
-from equipoise.estimation.method_contract import origin_of
+from equipoise.estimation.method_contract import Options, origin_of
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import inverse_spd
 from equipoise.maths.long_run import long_run_covariance, memory
@@ -166,7 +166,7 @@ def unseeing(why: Outcome) -> Estimate:
     return Estimate(METHOD, why, (), np.zeros((0, 0)), None, unseen)
 
 
-def estimate(recording: Recording, testbed: Testbed) -> Estimate:
+def estimate(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     """Return the centre of mass with the masses at home."""
     recording = arranged(recording, testbed.mass_names)
     rests = stops(recording, testbed)

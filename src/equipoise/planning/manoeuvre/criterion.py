@@ -16,12 +16,12 @@ import numpy as np
 
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats, Square
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import BODY, COM, INERTIA
 from equipoise.model.mass_properties import MassProperties
 
 Criterion = Literal["A", "D"]
 Quantity = Literal["J", "r", "both"]
-NAMES: dict[Quantity, tuple[str, ...]] = {"J": INERTIA, "r": COM, "both": (*INERTIA, *COM)}
+NAMES: dict[Quantity, tuple[str, ...]] = {"J": INERTIA, "r": COM, "both": BODY}
 OF_MOMENT, OF_COM = 0.01, 1e-6  # -, m, chosen: as laboratories require
 
 
@@ -32,7 +32,7 @@ def sizes(body: MassProperties) -> Floats:
 
 def size_of(body: MassProperties, names: tuple[str, ...]) -> Floats:
     """Return the sizes of some of them."""
-    known = dict(zip((*INERTIA, *COM), sizes(body), strict=True))
+    known = dict(zip(BODY, sizes(body), strict=True))
     return np.array([known[name] for name in names])
 
 

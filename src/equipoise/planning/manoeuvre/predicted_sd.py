@@ -19,7 +19,7 @@ import numpy as np
 
 from equipoise.maths.attitude import exponential, leaning, multiply, to_matrix
 from equipoise.model.arrays import Floats, Vector3
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import BODY
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.reasons.reason import Reason, distinct
@@ -110,8 +110,8 @@ def promise(
     tilts, rates = np.array(peaks_of(testbed, manoeuvre, wish, rng)).T
     return Promise(
         manoeuvre,
-        (*INERTIA, *COM),
-        np.array([one.sd_of((*INERTIA, *COM)) for one in others]),
+        BODY,
+        np.array([one.sd_of(BODY) for one in others]),
         wish.prior.body,
         expected,
         len(tilts),

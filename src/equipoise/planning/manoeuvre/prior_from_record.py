@@ -13,14 +13,12 @@ import numpy as np
 
 from equipoise.maths.linalg import inverse_spd, symmetrise
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.estimate import BODY, Estimate
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.planning.manoeuvre.predicted_information import Known
 from equipoise.planning.manoeuvre.scenario import Prior
-
-BODY = (*INERTIA, *COM)
 
 
 class RecordPrior(NamedTuple):

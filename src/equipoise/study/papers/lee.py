@@ -34,7 +34,7 @@ from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Quaternion, Series3
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.observability import Observability
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import AttitudeSensor, Testbed
 from equipoise.study.papers.gyro_slew import Slew, slewed
 
@@ -125,7 +125,7 @@ def coarser(recording: Recording, testbed: Testbed) -> Recording:
     assert rows is not None
     assert sensor is not None
     keep = slice(None, None, max(round(1.0 / (sensor.rate * rows.period)), 1))
-    return replace(recording, attitude=Samples(rows.t[keep], rows.values[keep]))
+    return replace(recording, attitude=rows.where(keep))
 
 
 def judged(testbed: Testbed, start: tuple[float, float, float], slew: Slew) -> Manoeuvre:

@@ -17,7 +17,7 @@ from equipoise.app.text.json_lists import REPRODUCE_LEE
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.maths.linalg import element_sizes
-from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.estimate import BODY, COM, INERTIA, Estimate
 from equipoise.model.observability import Observability
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import DEG, G_CM, PERCENT
@@ -34,7 +34,7 @@ from equipoise.study.papers.lee import (
 )
 from equipoise.study.papers.lee_course import Courses, courses_of
 
-SHOWN = (*INERTIA, *COM)
+SHOWN = BODY
 SENSORS = ("fine attitude", "the preset's own")
 LEAST = (
     "Cramer-Rao bound: no unbiased method has a smaller sd. Fine attitude: 0.02 deg at 100 Hz "

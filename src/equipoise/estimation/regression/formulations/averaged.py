@@ -22,9 +22,10 @@ import numpy as np
 
 from equipoise.estimation.regression.formulations.columns import columns
 from equipoise.estimation.regression.formulations.momentum import body_axes, by_piece
-from equipoise.estimation.regression.formulations.rows import BODY, Posed, Rows
+from equipoise.estimation.regression.formulations.rows import Posed, Rows
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Ints
+from equipoise.model.estimate import BODY
 
 ROWS = 20  # in the mean, as methods compare
 

@@ -15,8 +15,9 @@ import numpy as np
 
 from equipoise.estimation.regression.formulations.columns import columns, moved_masses
 from equipoise.estimation.regression.formulations.momentum import by_piece
-from equipoise.estimation.regression.formulations.rows import BODY, Posed, Rows
+from equipoise.estimation.regression.formulations.rows import Posed, Rows
 from equipoise.model.arrays import Floats
+from equipoise.model.estimate import BODY
 
 
 def energy(posed: Posed) -> Rows:

@@ -22,8 +22,9 @@ import numpy as np
 from scipy.integrate import cumulative_simpson
 
 from equipoise.estimation.regression.formulations.columns import Columns, columns
-from equipoise.estimation.regression.formulations.rows import BODY, Posed, Rows
+from equipoise.estimation.regression.formulations.rows import Posed, Rows
 from equipoise.model.arrays import Floats, Ints, Series1, Series3
+from equipoise.model.estimate import BODY
 
 RESTART = 20.0  # s, chosen: within the 10 to 30 s in which a gyro drifts little
 

@@ -15,13 +15,11 @@ import numpy as np
 from equipoise.estimation.motion.fused_motion import LedMotion
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats, Ints, Series1
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import BODY, COM, INERTIA
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
-
-BODY = (*INERTIA, *COM)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

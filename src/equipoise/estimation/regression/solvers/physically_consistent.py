@@ -17,7 +17,7 @@ from equipoise.estimation.regression.solvers.least_squares import Aid, normal_of
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import BODY, COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 
 LARGEST = 20.0  # of the logarithms, chosen: so that no trial leaves the range of numbers
@@ -27,7 +27,7 @@ def possible(rows: Rows, aid: Aid) -> Floats:
     """Return the solution."""
     normal, right = normal_of(centred(rows))
     free = solved(normal, right)
-    if not set((*INERTIA, *COM)) <= set(rows.names):
+    if not set(BODY) <= set(rows.names):
         return free  # held values are the user's own
     six = [rows.names.index(name) for name in INERTIA]
     com = [rows.names.index(name) for name in COM]

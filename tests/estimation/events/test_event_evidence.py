@@ -6,8 +6,8 @@ from math import erfc, exp, pi, sqrt
 import numpy as np
 import pytest
 
-from equipoise.estimation.events import record_model
-from equipoise.estimation.events.detection_threshold import threshold
+from equipoise.estimation.events import jump_test
+from equipoise.estimation.events.jump_test import threshold
 from equipoise.estimation.events.record_model import (
     Happening,
     RecordModel,
@@ -53,9 +53,9 @@ def test_an_event_gains_what_the_cost_falls_by_less_its_price(kind):
 def test_a_wider_prior_of_an_event_changes_nothing(monkeypatch):
     """What the flat prior is said to be is not part of the comparison."""
     record = noisy(with_event("impulse", 3.0), 2)
-    values = []
+    values, impulse = [], jump_test.KINDS["impulse"]
     for width in (1.0, 10.0):
-        monkeypatch.setitem(record_model.WIDE, "impulse", width)
+        monkeypatch.setitem(jump_test.KINDS, "impulse", impulse._replace(sd=width))
         values.append(evidence(*smoothed(estimated(record, Happening(EVENT, "impulse"))), PRICE))
     assert values[0] == pytest.approx(values[1], abs=1e-3)
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.estimation.information.cramer_rao_bound import least_sd
+from equipoise.estimation.information.information_matrix import least_sd
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.maths.attitude import exponential, multiply
