@@ -97,8 +97,7 @@ def prior_of(
     if inertia_and_com:
         sd[JP] = max(testbed.inertia_sd, KNOWN) * element_sizes(testbed.body.inertia_P)
         sd[R] = np.maximum(testbed.com_sd, KNOWN_COM)
-    for k, name in enumerate(layout.errors):
-        sd[names.index(name)] = errors.sd[k]
+    sd[layout.mass_errors] = errors.sd
     sd[layout.sensors] = sensor_sizes(layout.sensor, testbed.attitude)
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
         sd[layout.gyro_bias] = testbed.gyro.bias_sd
