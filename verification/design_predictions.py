@@ -24,10 +24,9 @@ from equipoise.model.defects import CameraErrors
 from equipoise.model.estimate import END, INERTIA
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.planning.manoeuvre.reference_manoeuvre import usual_swing
-from equipoise.planning.sizing.budget import SOME, budget_of, mean_square, platforms
+from equipoise.planning.sizing.budget import SOME, budget_of, even_normals, mean_square, platforms
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.expected_torque import expected_torque
-from equipoise.planning.sizing.likely_offsets import even_normals
 from equipoise.planning.sizing.measurement_bound import first_bound
 from equipoise.planning.sizing.move_error import at_home, move
 from equipoise.planning.sizing.reachable_set import contains, reach_of

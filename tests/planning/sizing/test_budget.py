@@ -10,16 +10,17 @@ from scipy.stats import norm
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.linalg import symmetrise
 from equipoise.planning.manoeuvre.reference_manoeuvre import GUARD, gentle_swing, usual_swing
-from equipoise.planning.sizing.budget import budget_of, estimated
-from equipoise.planning.sizing.case import Case
-from equipoise.planning.sizing.environment import Surroundings
-from equipoise.planning.sizing.likely_offsets import (
+from equipoise.planning.sizing.budget import (
+    budget_of,
+    estimated,
     even_normals,
     share_within,
     stated_offsets,
     with_covariance,
     within_reach,
 )
+from equipoise.planning.sizing.case import Case
+from equipoise.planning.sizing.environment import Surroundings
 from equipoise.planning.sizing.limits import limit_sentence, verdict, worth_listing
 from equipoise.planning.sizing.measurement_bound import first_bound, later_bound
 from equipoise.planning.sizing.reachable_set import reach_of
