@@ -11,7 +11,7 @@ from equipoise.model.errors import InputError, MoveRefused
 from equipoise.model.recording import CHANNELS, join
 from equipoise.model.testbed import AttitudeSensor, Fault, Gyro
 from equipoise.simulation.bench import SimulatedBench
-from equipoise.simulation.record import record
+from equipoise.simulation.carried_out import record
 
 MOVES = {7.5: {"x1": 0.02, "z2": -0.03}, 8.4: {"x1": -0.01}, 20.0: {"y1": 0.05}, 22.0: None}
 EVERYTHING = {"viscous_z": 1e-4, "drift_x": 1e-7, "swirl": 1e-5}

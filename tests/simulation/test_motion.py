@@ -13,7 +13,7 @@ from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.testbed import AttitudeSensor, Fault, Gyro
 from equipoise.model.torque_terms import TERMS
 from equipoise.simulation.bench import SimulatedBench
-from equipoise.simulation.record import record
+from equipoise.simulation.carried_out import record
 
 G = 9.81
 

@@ -1,4 +1,6 @@
-"""A planned manoeuvre on a simulated bench: a hand that lets go nearly as planned, then the rest.
+"""A whole recording of a simulated bench whose masses move and devices work at given times.
+
+A planned manoeuvre starts with a hand that lets go nearly as planned:
 
     tilt    the planned lean, with a normal error about each level axis; any heading
     rate    the planned one, with a normal error of each component
@@ -6,7 +8,9 @@
 What the platform is like is drawn as without a plan; only its start is the plan's.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,14 +18,23 @@ from equipoise.actuators.square_waves import inputs_along
 from equipoise.maths.attitude import exponential, leaning, multiply, to_euler321
 from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.bench import Bench
+from equipoise.model.errors import InputError
 from equipoise.model.manoeuvre import Manoeuvre
-from equipoise.model.recording import Recording
+from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.draw_truth import own_truth
-from equipoise.simulation.record import Command, commanded
 
 HAND = 9  # chosen: sets the hand's draws apart from the bench's own, which spawn from the seed
+Moves = Sequence[tuple[float, Mapping[str, float]]]
+
+
+class Command(NamedTuple):
+    """What a bench is commanded at a time (s): targets of masses (m), inputs of devices."""
+
+    t: float
+    targets: Mapping[str, float]
+    inputs: Mapping[str, float]
 
 
 def met_start(
@@ -67,3 +80,28 @@ def simulated(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Recording:
 def carried_out(bench: Bench, manoeuvre: Manoeuvre) -> Recording:
     """Return what a fresh bench records of a manoeuvre."""
     return commanded(bench, manoeuvre.duration, commands_of(manoeuvre))
+
+
+def record(testbed: Testbed, duration: float, moves: Moves, seed: int) -> Recording:
+    """Return ``duration`` seconds with masses sent to targets (m) at times (s) in order."""
+    return recorded(SimulatedBench(testbed, seed), duration, moves)
+
+
+def recorded(bench: Bench, duration: float, moves: Moves) -> Recording:
+    """Return the same of a bench that has not been read yet."""
+    return commanded(bench, duration, [Command(t, targets, {}) for t, targets in moves])
+
+
+def commanded(bench: Bench, duration: float, commands: Sequence[Command]) -> Recording:
+    """Return ``duration`` seconds of a fresh bench that gets these commands in order."""
+    recording = bench.read(0.0)
+    for command in commands:
+        if not bench.time <= command.t <= duration:
+            wanted = f"times in order, from 0 to {duration:g} s"
+            raise InputError("moves", f"one at {command.t:g} s", wanted)
+        recording = join(recording, bench.read(command.t - bench.time))
+        if command.targets:
+            bench.move(command.targets)
+        if command.inputs:
+            bench.drive(command.inputs)
+    return join(recording, bench.read(duration - bench.time))

@@ -31,8 +31,8 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.steps.clean_record import sound
 from equipoise.simulation.bench import SimulatedBench
+from equipoise.simulation.carried_out import Moves, recorded
 from equipoise.simulation.draw_truth import SimulatedPlatform
-from equipoise.simulation.record import Moves, recorded
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -20,8 +20,8 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.testbed import TrueDrive
 from equipoise.procedure.identification.calibration_moves import calibration_moves, hangs
+from equipoise.simulation.carried_out import record
 from equipoise.simulation.draw_truth import real_masses
-from equipoise.simulation.record import record
 from tests.support.outcomes import codes_of, of_use
 from verification.calibration import by_mujoco
 

@@ -19,7 +19,7 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential
 from equipoise.model.recording import Recording, Samples
 from equipoise.simulation.bench import SimulatedBench
-from equipoise.simulation.record import recorded
+from equipoise.simulation.carried_out import recorded
 from tests.support.builders import MASS, platform
 from tests.support.outcomes import codes_of
 

@@ -6,8 +6,7 @@ from equipoise.app.arguments.checks import positive, seed_of
 from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
-from equipoise.simulation.carried_out import simulated
-from equipoise.simulation.record import record
+from equipoise.simulation.carried_out import record, simulated
 
 USUAL = 120.0  # s
 

@@ -47,8 +47,7 @@ def simulate(
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
     check_writable(out)
     with busy("simulating"):
-        from equipoise.simulation.carried_out import simulated
-        from equipoise.simulation.record import record
+        from equipoise.simulation.carried_out import record, simulated
 
         recording = (
             record(bed, duration, moves, drawn)
