@@ -140,7 +140,7 @@ ASSESSMENT = _of(
      "_middle(camera) + _middle(gyro)", "assessment/record_checks/test_clock_offset.py"),
     ("record_checks/frozen_rows.py", "(last - first + 1) < ALARMS", "(last - first + 1) > ALARMS",
      "assessment/record_checks/test_flagged_rows.py"),
-    ("record_checks/quantisation.py", "float(gaps.min())", "float(gaps.max())",
+    ("record_checks/rate_quality.py", "float(gaps.min())", "float(gaps.max())",
      "assessment/findings/test_record_findings.py"),
 )  # fmt: skip
 

@@ -6,8 +6,7 @@ import pytest
 from equipoise.assessment.findings.record_findings import findings
 from equipoise.assessment.record_checks.attitude_noise import attitude_noise
 from equipoise.assessment.record_checks.gyro_consistency import correlation, rate_pairs
-from equipoise.assessment.record_checks.quantisation import step_of
-from equipoise.assessment.record_checks.rate_quality import rate_noise
+from equipoise.assessment.record_checks.rate_quality import rate_noise, step_of
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.model.recording import Recording, Samples

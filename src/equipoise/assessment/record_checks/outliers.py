@@ -31,7 +31,7 @@ from equipoise.assessment.record_checks.local_fit import (
     local_fit,
     rate_vectors,
 )
-from equipoise.assessment.record_checks.quantisation import step_of
+from equipoise.assessment.record_checks.rate_quality import step_of
 from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.assessment.record_checks.window_misfit import (
     ASIDE,

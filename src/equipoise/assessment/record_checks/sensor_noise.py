@@ -11,8 +11,7 @@ import math
 from dataclasses import replace
 
 from equipoise.assessment.record_checks.attitude_noise import attitude_noise
-from equipoise.assessment.record_checks.quantisation import step_of
-from equipoise.assessment.record_checks.rate_quality import rate_noise
+from equipoise.assessment.record_checks.rate_quality import rate_noise, step_of
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
