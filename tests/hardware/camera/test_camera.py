@@ -12,13 +12,18 @@ cv2 = pytest.importorskip("cv2", reason="the extra 'camera' is not installed")
 
 from equipoise.hardware.camera import aruco  # noqa: E402
 from equipoise.hardware.camera.calibration import lens_from  # noqa: E402
-from equipoise.hardware.camera.eye import eye_of, lens_of, settings_of_lens  # noqa: E402
+from equipoise.hardware.camera.eye import (  # noqa: E402
+    camera_to_laboratory,
+    eye_of,
+    lens_of,
+    level_up,
+    settings_of_lens,
+)
 from equipoise.hardware.camera.first_pose import Corners  # noqa: E402
 from equipoise.hardware.camera.lens import Lens  # noqa: E402
 from equipoise.hardware.camera.pose import Pose, Unseen, chosen  # noqa: E402
 from equipoise.hardware.camera.sight import Sight  # noqa: E402
 from equipoise.hardware.camera.tag_board import TagBoard, board_print  # noqa: E402
-from equipoise.hardware.camera.upright import camera_to_laboratory, level_up  # noqa: E402
 from equipoise.hardware.emulated.camera import EmulatedCamera, renderer_of  # noqa: E402
 from equipoise.hardware.emulated.rendering import Appearance, Renderer, Sheet, project  # noqa: E402
 from equipoise.hardware.links.frame_transform import placed  # noqa: E402

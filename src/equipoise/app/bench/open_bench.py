@@ -15,8 +15,7 @@ from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.port_lock import commanding
 from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.hardware.boards.registry import BOARDS
-from equipoise.hardware.links.board_link import BoardLink
-from equipoise.hardware.links.device_links import Links
+from equipoise.hardware.links.device_links import BoardLink, Links
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.transport.driver_protocol import driver_named

@@ -13,11 +13,10 @@ import numpy as np
 
 from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.wall_clock import WallClock
-from equipoise.hardware.camera.eye import Eye, eye_of
+from equipoise.hardware.camera.eye import Eye, eye_of, level_up
 from equipoise.hardware.camera.pictures import pictures_of
 from equipoise.hardware.camera.pose import Pose, Unseen
 from equipoise.hardware.camera.sight import Sight
-from equipoise.hardware.camera.upright import level_up
 from equipoise.hardware.links.frame_transform import as_sensed, placed
 from equipoise.hardware.links.sensor_link import UNSTATED, SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS

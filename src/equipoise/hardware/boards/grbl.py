@@ -15,9 +15,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.grbl_report import Code, Report, Setting, Status, Word, parsed
+from equipoise.hardware.boards.grbl_report import (
+    Code,
+    Report,
+    Setting,
+    Status,
+    Word,
+    parsed,
+    sentence_of,
+)
 from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
-from equipoise.hardware.boards.grbl_words import sentence_of
 from equipoise.hardware.boards.legs import next_leg, time_left
 from equipoise.hardware.transport.driver_protocol import (
     LEG,

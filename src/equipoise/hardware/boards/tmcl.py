@@ -17,9 +17,8 @@ from dataclasses import replace
 
 from equipoise.hardware.boards import tmcl_words as w
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.tmcl_scripts import MARK, OBSERVED, Scripts
+from equipoise.hardware.boards.tmcl_scripts import MARK, OBSERVED, Scripts, Steps
 from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_value
-from equipoise.hardware.boards.tmcl_steps import Steps
 from equipoise.hardware.boards.tmcl_talk import Talk
 from equipoise.hardware.boards.tmcl_words import Request
 from equipoise.hardware.transport.driver_protocol import (

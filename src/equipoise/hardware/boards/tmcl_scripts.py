@@ -1,19 +1,55 @@
 """The scripts of requests for a TMCL module: at connection, and for finding its position.
 
+Displacements of masses are in the module's microsteps:
+
+    microsteps = (zero +- displacement) * steps per metre
+
+Every round sends each motor a target at most two legs ahead of its last reported position: TMCL
+keeps no queue, and a target replaces the one before.
+
 The mark is a variable of its working memory: after a reset it is 0 again. Source: TMCM-6110 TMCL
 Firmware Manual V1.31, 4.6.13 "RFS", chapter 6 "Global parameters", bank 2.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from equipoise.hardware.boards import tmcl_words as w
 from equipoise.hardware.boards.tmcl_settings import questions
-from equipoise.hardware.boards.tmcl_steps import Steps
 from equipoise.hardware.boards.tmcl_words import Request
-from equipoise.model.hardware import MotorBoard
+from equipoise.hardware.transport.driver_protocol import LEG
+from equipoise.model.hardware import Axis, MotorBoard
+from equipoise.model.testbed import SlidingMass
 
 MARK, BANK, VARIABLE = 0x45515550, 2, 255  # chosen: any number but 0; the last user variable
 OBSERVED = Request(w.GGP, VARIABLE, BANK)
+
+
+class Steps:
+    """The maps between displacements and microsteps, by mass."""
+
+    def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
+        self.axes: Mapping[str, Axis] = {axis.mass: axis for axis in board.axes}
+        self._speed = {mass.name: mass.speed for mass in masses}
+
+    def motor(self, name: str) -> int:
+        """Return the number of a mass's motor."""
+        return int(self.axes[name].letter)
+
+    def steps(self, name: str, displacement: float) -> int:
+        """Return the module's position of a displacement (m)."""
+        axis = self.axes[name]
+        return round(axis.position(displacement) * axis.steps_per_m)
+
+    def displacement(self, name: str, steps: int) -> float:
+        """Return the displacement (m) of a module's position."""
+        axis = self.axes[name]
+        return axis.displacement(steps / axis.steps_per_m)
+
+    def target(self, name: str, at: int, goal: float) -> int:
+        """Return the position to send a mass to, on its way from ``at`` to a goal (m)."""
+        end = self.steps(name, goal)
+        most = int(2 * LEG * self._speed[name] * self.axes[name].steps_per_m)
+        return max(at - most, min(at + most, end))
 
 
 class Scripts:

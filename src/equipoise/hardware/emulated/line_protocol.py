@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.hardware.emulated.sensed_rows import sensed_rows
+from equipoise.hardware.emulated.device import sensed_rows
 from equipoise.maths.attitude import to_euler321
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import Gives, SensorUnit

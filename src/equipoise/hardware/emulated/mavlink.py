@@ -7,7 +7,7 @@ stamped in time since boot, the IMU in Unix time.
 from collections.abc import Sequence
 from typing import Any
 
-from equipoise.hardware.emulated.sensed_rows import sensed_rows
+from equipoise.hardware.emulated.device import sensed_rows
 from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit

@@ -6,7 +6,7 @@ Written from the SDK's samples, independently of the driver.
 import struct
 from collections.abc import Sequence
 
-from equipoise.hardware.emulated.sensed_rows import sensed_rows
+from equipoise.hardware.emulated.device import sensed_rows
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording

@@ -7,7 +7,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from equipoise.hardware.emulated.sensed_rows import sensed_rows
+from equipoise.hardware.emulated.device import sensed_rows
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.recording import Recording

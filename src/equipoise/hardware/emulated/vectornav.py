@@ -8,7 +8,7 @@ from functools import reduce
 
 import numpy as np
 
-from equipoise.hardware.emulated.sensed_rows import sensed_rows
+from equipoise.hardware.emulated.device import sensed_rows
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.recording import Recording

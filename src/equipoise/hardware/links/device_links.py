@@ -3,13 +3,44 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from equipoise.hardware.links.board_link import BoardLink
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.hardware.links.sensor_link import SensorLink
-from equipoise.hardware.transport.driver_protocol import BoardState
+from equipoise.hardware.transport.driver_protocol import BoardDriver, BoardState
+from equipoise.hardware.transport.reconnecting_port import Connection
+from equipoise.model.hardware import MotorBoard
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
+
+
+class BoardLink:
+    """Carries bytes between a board's driver and its port."""
+
+    def __init__(self, board: MotorBoard, driver: BoardDriver, connection: Connection) -> None:
+        self.board, self.driver, self.connection = board, driver, connection
+
+    @property
+    def health(self) -> Health:
+        """How well it answers."""
+        return Health(f"board {self.board.name}", self.driver.counts)
+
+    def turn(self, t: float) -> None:
+        """Feed the driver what has arrived."""
+        turn = self.connection.turn(t)
+        if turn.opened:
+            self.driver.opened(t)
+        for data in turn.data:
+            self.driver.feed(data, t)
+        if turn.lost:
+            self.driver.closed(turn.lost)
+
+    def send(self, t: float) -> None:
+        """Send what the driver has to say."""
+        if self.connection.why:
+            return
+        lost = self.connection.send(self.driver.due(t), t).lost
+        if lost:
+            self.driver.closed(lost)
 
 
 @dataclass(frozen=True, slots=True)
