@@ -22,7 +22,7 @@ from equipoise.model.estimate import NORMAL_95, Estimate
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed, TrueDrive, Truth
 from equipoise.model.units import DEG, MM, PERCENT, UM
-from equipoise.procedure.identification.calibration_moves import calibration_moves
+from equipoise.procedure.identification.calibrate import calibration_moves
 from equipoise.simulation.carried_out import record
 from tests.oracle import mujoco_bench as oracle
 from verification.chance import nees_band, share_band

@@ -19,7 +19,7 @@ from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.testbed import TrueDrive
-from equipoise.procedure.identification.calibration_moves import calibration_moves, hangs
+from equipoise.procedure.identification.calibrate import calibration_moves, hangs
 from equipoise.simulation.carried_out import record
 from equipoise.simulation.draw_truth import real_masses
 from tests.support.outcomes import codes_of, of_use

@@ -108,7 +108,7 @@ def _write(found: "Calibrated", name: str, path: Path, quiet: bool) -> None:
 
 def _report_moves(bed: "Testbed", name: str) -> int:
     """Print the moves that show most, as a command for the simulated bench."""
-    from equipoise.procedure.identification.calibration_moves import calibration_moves
+    from equipoise.procedure.identification.calibrate import calibration_moves
 
     plan, duration = calibration_moves(bed)
     lines = [f"equipoise simulate {name} --out run.csv --duration-s {duration:g}"]
