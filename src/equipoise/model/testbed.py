@@ -165,6 +165,11 @@ class Testbed(Shown):
     hardware: Hardware | None = None  # what is connected; None: nothing, it can be simulated
 
     @property
+    def weight(self) -> float:
+        """Return m g, N."""
+        return self.body.mass * self.gravity
+
+    @property
     def devices(self) -> tuple[Device, ...]:
         """Return wheels, gyros, magnetorquers and jets; their names differ."""
         return (*self.wheels, *self.cmgs, *self.magnetorquers, *self.jets)

@@ -130,7 +130,7 @@ def settling(frequency: float, integral: float, swing: float) -> float:
 
 def swing_of(testbed: Testbed, height: float) -> float:
     """Return w_z^2 (rad^2/s^2) of a centre of mass that high (m) above P."""
-    return -testbed.body.mass * testbed.gravity * height / offsets.level_inertia(testbed)
+    return -testbed.weight * height / offsets.level_inertia(testbed)
 
 
 def frequency_for(testbed: Testbed, period: float) -> float:
@@ -141,7 +141,7 @@ def frequency_for(testbed: Testbed, period: float) -> float:
 
 def least_frequency(testbed: Testbed, offset: float) -> float:
     """Return w_a (rad/s) below which an offset (m), or an inverted pendulum, tilts too far."""
-    weight = testbed.body.mass * testbed.gravity / offsets.level_inertia(testbed)
+    weight = testbed.weight / offsets.level_inertia(testbed)
     sideways = weight * offset / (TILTED * testbed.tilt_limit)
     upright = max(-swing_of(testbed, offsets.likely_height(testbed)), 0.0) / UPRIGHT
     return float(max(sideways, upright) ** 0.5)

@@ -83,7 +83,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     low = min(float(target @ up), -SAFE)
     safe = target + (low - float(target @ up)) * up
     J = moment_across(testbed.body.inertia_P, up)
-    stiffness = testbed.body.mass * testbed.gravity / J
+    stiffness = testbed.weight / J
     return State(-hang * up), Params(up, safe, swings.held(testbed), stiffness, testbed.inertia_sd)
 
 

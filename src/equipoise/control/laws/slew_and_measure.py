@@ -120,7 +120,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     pace = slews.pace_for(float(np.linalg.eigvalsh(J)[-1]), can)
     turns, held = attitudes(testbed), of_group(testbed, "drift")
     lasting = sum(ways(testbed.up, turns, pace))
-    needed = testbed.body.mass * testbed.gravity * lasting  # N m s per m
+    needed = testbed.weight * lasting  # N m s per m
     bearable = can.momentum / needed
     if bearable < CLOSE:
         raise InputError("slew_and_measure", f"wheels or gyros that store {can.momentum:.3g} N m s",

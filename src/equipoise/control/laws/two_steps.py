@@ -134,7 +134,7 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
 def push_for(testbed: Testbed) -> float:
     """Return how far (m) the centre of mass goes aside for a swing of the wanted size."""
     rate = SWING * testbed.tilt_limit / MEASURED
-    wanted = rate * offsets.level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
+    wanted = rate * offsets.level_inertia(testbed) / (testbed.weight * PUSH)
     return min(wanted, greatest_slew(testbed) * PUSH)
 
 

@@ -128,7 +128,7 @@ def hanging(testbed: Testbed) -> Hanging:
     axes = axes_across(up)
     moments = np.einsum("ij,jk,ik->i", axes, body.inertia_P, axes)
     return Hanging(
-        up, axes, body.mass * testbed.gravity / moments, -height - lowered, lowered,
+        up, axes, testbed.weight / moments, -height - lowered, lowered,
         float(np.abs(up) @ testbed.com_sd), greatest_slew(testbed), reach,
         finest_step(testbed, axes), sensor_delay(testbed), filling_time(testbed),
         of_group(testbed, "drift"),

@@ -104,7 +104,7 @@ def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
         return sensor_sizes(group, model.testbed.attitude)
     body = model.testbed.body
     moment = float(np.trace(body.inertia_P)) / 3
-    return term_sizes(group, moment, body.mass * model.testbed.gravity)
+    return term_sizes(group, moment, model.testbed.weight)
 
 
 def surplus(model: RecordModel, group: tuple[str, ...]) -> float:

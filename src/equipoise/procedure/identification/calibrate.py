@@ -69,7 +69,7 @@ def stand(testbed: Testbed) -> float:
     if depth <= 0:
         where = f"{testbed.source or testbed.name}: platform.com_um"
         raise InputError(where, "a centre of mass that is not below P", "one that hangs")
-    stiffness = body.mass * testbed.gravity * depth
+    stiffness = testbed.weight * depth
     half = math.pi * math.sqrt(float(np.trace(body.inertia_P)) / 3 / stiffness)
     return ROUND * math.ceil(half / ROUND)
 
