@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.dynamics.timeline import Timeline
 from equipoise.estimation.motion.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.output_error.kernels.segments import Cuts
@@ -23,7 +23,6 @@ from equipoise.estimation.output_error.segment_jumps import RATE, TURN, Jump
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.maths.attitude import difference, exponential, multiply
-from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Series1, Vector3
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -55,9 +54,7 @@ def section(line: Timeline, first: int, last: int) -> Timeline:
 
 def missing(problem: Problem, point: Unknowns, motion: SampledMotion, cuts: Cuts) -> Floats:
     """Return the jumps from the end of each stretch to the measured beginning of the next."""
-    body = point.body(problem.mass)
-    inertia, moment = pack_symmetric(body.inertia_P), body.first_moment
-    rigid = body_of(body.mass, problem.gravity, inertia, moment, point.torque)
+    rigid = rigid_body(point.body(problem.mass), problem.gravity, point.torque)
     out = np.zeros((len(cuts.nodes) - 2, 6))
     q, w = point.q0, point.w0
     for k in range(len(out)):

@@ -11,13 +11,13 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import exponential, multiply, tilt
-from equipoise.maths.linalg import inverse_where, pack_symmetric
+from equipoise.maths.linalg import inverse_where
 from equipoise.model.arrays import Square, Vector3
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
@@ -100,8 +100,7 @@ def true_body(point: Unknowns, scenario: Scenario) -> Unknowns:
 def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
     """Return the peaks of one platform."""
     problem = tried.problem
-    body = truth.body(problem.mass)
-    rigid = body_of(body.mass, problem.gravity, pack_symmetric(body.inertia_P), body.first_moment)
+    rigid = rigid_body(truth.body(problem.mass), problem.gravity)
     motion = propagate(rigid, problem.maps, problem.line, truth.q0, truth.w0)
     rate = float(np.linalg.norm(motion.rate, axis=1).max())
     return Peaks(float(tilt(motion.q, tried.up).max()), rate)
