@@ -89,7 +89,7 @@ class SimulatedBench:
         self._rails = mass_maps(masses)
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
         self._travel = actuator.left_at(masses, standing or {}, self._stops_rng)
-        self._track = actuator.retracked(actuator.track_home(masses), self._travel, 0.0)
+        self._track = actuator.tracked(self._travel)
         self._normals = np.zeros(len(masses))  # stop errors of legs, of one sd
         self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
         self._lead = max(lead(testbed.attitude), lead(testbed.gyro))

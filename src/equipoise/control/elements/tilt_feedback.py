@@ -71,11 +71,6 @@ class Gains(NamedTuple):
     integral: float  # rad/s, w_i
     period: float  # s
 
-    @property
-    def spring(self) -> float:
-        """Return X (m): how far the centre of mass would hang below P to swing as fast."""
-        return self.gamma * self.mass * self.gravity
-
 
 def gains_at(testbed: Testbed, frequency: float, integral: float, period: float) -> Gains:
     """Return the gains for a closed loop of that frequency w_a (rad/s)."""

@@ -82,19 +82,15 @@ def rehearsal(
 
 def started(tried: Rehearsal, scenario: Scenario) -> Unknowns:
     """Return the truth of one platform, let go nearly as planned."""
-    plan, point = tried.manoeuvre, true_body(tried.expected, scenario)
+    plan, point, body = tried.manoeuvre, tried.expected, scenario.body
     lean = plan.tilt_sd * (scenario.lean - (scenario.lean @ tried.up) * tried.up)
     return replace(
         point,
+        six=pseudo_inertia.from_inertia(body.inertia_C),
+        com=body.com,
         q0=multiply(point.q0, exponential(lean)),
         w0=plan.rate + plan.rate_sd * scenario.push,
     )
-
-
-def true_body(point: Unknowns, scenario: Scenario) -> Unknowns:
-    """Return a point with another body."""
-    six = pseudo_inertia.from_inertia(scenario.body.inertia_C)
-    return replace(point, six=six, com=scenario.body.com)
 
 
 def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:

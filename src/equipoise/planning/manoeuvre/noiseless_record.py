@@ -50,7 +50,7 @@ def mass_track(testbed: Testbed, manoeuvre: Manoeuvre) -> Samples | None:
         return None
     unused = np.random.default_rng(0)  # of where masses stop, which is not reported
     travel = actuator.left_at(masses, manoeuvre.standing, unused)
-    track = actuator.retracked(actuator.track_home(masses), travel, 0.0)
+    track = actuator.tracked(travel)
     for t, targets in manoeuvre.moves:
         goals = actuator.checked(travel, t, targets, masses)
         travel = actuator.sent(travel, t, goals, masses, (), unused)

@@ -22,7 +22,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
-from equipoise.procedure.steps.plain_steps import measurement_step
+from equipoise.procedure.steps.plain_steps import measurement_step, verdict_step
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
@@ -237,6 +237,5 @@ def final(bench: Bench, progress: Progress, options: BalanceOptions, why: StepRe
     judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
     if why is StepReason.TILTED:
         judged = Verdict(one_reason(VerdictReason.TILTED), knowledge.com, knowledge.sd)
-    kind = "verify" if judged.passed else "stop"
     reasons = (Reason(why), *judged.reasons)
-    return Step(kind, bench.time, reasons, knowledge.recording, knowledge.estimate, verdict=judged)
+    return verdict_step(bench.time, judged, reasons, knowledge.recording, knowledge.estimate)

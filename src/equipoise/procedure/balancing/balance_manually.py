@@ -40,7 +40,7 @@ from equipoise.procedure.balancing.manual_estimate import (
     taught,
 )
 from equipoise.procedure.steps.joint_fit import as_if_stiff
-from equipoise.procedure.steps.plain_steps import measurement_step
+from equipoise.procedure.steps.plain_steps import measurement_step, verdict_step
 from equipoise.procedure.steps.verify import CONTRADICTION, Aim, at, judged, unusable
 
 
@@ -176,8 +176,7 @@ def errands(placing: Placing, testbed: Testbed) -> list[Reason]:
 
 def final_step(hands: Hands, verdict: Verdict, fresh: Recording, loading: Ints) -> Step:
     """Return the verification, or the stop with its reason."""
-    kind = "verify" if verdict.passed else "stop"
     why = () if verdict.passed else one_reason(StepReason.ROUNDS_USED_UP)
     places = int(np.count_nonzero(loading.sum(axis=1)))
     lie = one_reason(StepReason.WEIGHTS_LIE, weights=int(loading.sum()), places=places)
-    return Step(kind, hands.time, (*why, *verdict.reasons, *lie), fresh, verdict=verdict)
+    return verdict_step(hands.time, verdict, (*why, *verdict.reasons, *lie), fresh)

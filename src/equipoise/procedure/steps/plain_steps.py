@@ -1,10 +1,11 @@
 """Steps that procedures report alike: a record that was made, an estimate from one."""
 
 from equipoise.model.estimate import Estimate
-from equipoise.model.reasons.reason import one_reason
+from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
+from equipoise.model.verdict import Verdict
 
 
 def measurement_step(
@@ -13,6 +14,18 @@ def measurement_step(
     """Return the step of a record at a time, s."""
     start, end = recording.span
     return Step("measurement", time, one_reason(code, duration=end - start), recording=recording)
+
+
+def verdict_step(
+    time: float,
+    verdict: Verdict,
+    reasons: tuple[Reason, ...],
+    recording: Recording,
+    estimate: Estimate | None = None,
+) -> Step:
+    """Return the verification, or the stop where the verdict is another."""
+    kind = "verify" if verdict.passed else "stop"
+    return Step(kind, time, reasons, recording, estimate, verdict=verdict)
 
 
 def estimate_step(time: float, estimate: Estimate) -> Step:

@@ -100,14 +100,12 @@ def slew_from(
     return slewed(bed, level(bed.up), gains_of(bed), duration, seed)
 
 
-def estimates_of(
-    recording: Recording, testbed: Testbed, methods: Sequence[str] = COMPARED
-) -> dict[str, Estimate]:
-    """Return what methods make of a record."""
+def estimates_of(recording: Recording, testbed: Testbed) -> dict[str, Estimate]:
+    """Return what the compared methods make of a record."""
     posed = posed_of(recording, testbed, Options())
     draws = tuple(pairs(posed, Drawn(), max(PAIRS, UNKNOWNS + SPARE)))
     found = dict[str, Estimate]()
-    for name in methods:
+    for name in COMPARED:
         method, linear = METHODS[name], linear_of(METHODS[name])
         if linear is None:
             found[name] = method.run(recording, testbed, Options())
