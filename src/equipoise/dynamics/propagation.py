@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.sliding_masses import MassMaps
-from equipoise.dynamics.regressor import Triple
 from equipoise.dynamics.rigid_body import (
     NO_TORQUE,
     ROWS,
@@ -43,7 +42,7 @@ from equipoise.dynamics.sensitivities import (
 from equipoise.dynamics.timeline import Timeline
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.arrays import Floats, Quaternion, Vector3, Vector6
+from equipoise.model.arrays import Floats, Quaternion, Triple, Vector3, Vector6
 from equipoise.model.mass_properties import MassProperties
 
 

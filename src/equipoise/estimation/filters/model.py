@@ -34,10 +34,10 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import rigid_body, stacked
-from equipoise.dynamics.rigid_body import Body, Six
+from equipoise.dynamics.rigid_body import Body
 from equipoise.estimation.tracker.tracker import posterior_of
 from equipoise.maths.linalg import pack_symmetric, skew
-from equipoise.model.arrays import Floats, Matrix3, Square, Vector3, Vector6
+from equipoise.model.arrays import Floats, Matrix3, Six, Square, Vector3, Vector6
 from equipoise.model.testbed import Testbed
 
 FIRST_RATE = 0.1  # rad/s, chosen: one sd of the rate before the first row, as the tracker has it
