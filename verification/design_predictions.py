@@ -164,7 +164,7 @@ def chain(testbed: Testbed, measurements: tuple[Array, Array, Array], seed: int)
     com = testbed.body.com + testbed.com_sd * rng.normal(size=3)
     while not contains(reach, -com[None])[0]:
         com = testbed.body.com + testbed.com_sd * rng.normal(size=3)
-    home, (first, before, last) = actuator.at_home(testbed.masses), measurements
+    home, (first, before, last) = actuator.left_at(testbed.masses, {}, rng), measurements
     exact = stands(moved(testbed, home, -com, rng))
     travel = moved(testbed, home, -com - rng.multivariate_normal(np.zeros(3), first), rng)
     noise = np.linalg.inv(np.linalg.inv(last) - np.linalg.inv(before))

@@ -33,7 +33,7 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed, Truth
-from equipoise.planning.manoeuvre.criterion import sizes
+from equipoise.planning.manoeuvre.criterion import size_of
 from equipoise.planning.manoeuvre.manoeuvre_space import Space
 from equipoise.planning.manoeuvre.plan import TRIALS, Wish, planned
 from equipoise.planning.manoeuvre.predicted_sd import Promise, promise
@@ -139,7 +139,7 @@ def gains(
     testbed: Testbed, promised: Sequence[Promise], runs: Sequence[Sequence[Run]]
 ) -> list[Row]:
     """Return how much better the worst parameter is known, by prediction and by RMSE."""
-    size, rows = sizes(testbed.body), []
+    size, rows = size_of(testbed.body, BODY), []
     found = {
         "by prediction": [p.sd_of(BODY) / size for p in promised],
         "by RMSE in the stated model": [

@@ -118,7 +118,8 @@ def sent(
 ) -> tuple[Samples, Samples]:
     """Return where masses are told to be, and where their drives take them."""
     masses = testbed.masses
-    travel, track = actuator.at_home(masses), actuator.track_home(masses)
+    travel = actuator.left_at(masses, {}, rng)
+    track = actuator.tracked(travel)
     for t, targets in manoeuvre.moves:
         goals = actuator.checked(travel, t, targets, masses)
         travel = actuator.sent(travel, t, goals, masses, (), rng)

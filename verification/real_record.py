@@ -145,7 +145,7 @@ def measurement_rows(quiet: Estimate) -> tuple[Row, ...]:
     body = replace(testbed.body, com=quiet.com, inertia_P=quiet.inertia_P)
     observed = swing_metrics(recording, replace(testbed, body=body))
     assert observed.torque_fit is not None
-    held, weight = float(np.linalg.norm(quiet.com)), testbed.body.mass * testbed.gravity
+    held, weight = float(np.linalg.norm(quiet.com)), testbed.weight
     torque = observed.torque_fit
     found = {
         MODES[each.mode]: (each.moment / weight, each.sd / weight) for each in observed.hanging

@@ -67,7 +67,7 @@ def platform(seed: int, multiple: float | None) -> tuple[Testbed, float, float]:
     limit = float(np.exp(rng.uniform(*np.log(LIMITS))))
     low, high = np.log(MULTIPLES)
     drawn = float(np.exp(rng.uniform(low, high))) if multiple is None else multiple
-    weight = bed.body.mass * bed.gravity
+    weight = bed.weight
     per_metre = weight * residual_torque(way, np.zeros((3, 3)), bed.up, AssessOptions().tilt)
     size = drawn * limit / per_metre
     return replace(bed, truth=replace(bed.truth, com=size * way)), limit, size / drawn
@@ -81,7 +81,7 @@ def judged(job: tuple[int, float | None]) -> Answer:
     requested = AssessOptions(require_torque=torque, require_offset=distance)
     estimated = fit_of(record, bed, requested)
     pull = pull_of(*estimated[1])
-    weight = bed.body.mass * bed.gravity
+    weight = bed.weight
     found = answers_of(
         requested,
         torque_in_range(pull, weight, bed.up, requested.tilt),

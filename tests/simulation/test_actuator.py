@@ -11,14 +11,14 @@ from equipoise.simulation.actuator import (
     CARRIAGE,
     REAL,
     REPORTED,
-    at_home,
     checked,
     displacement,
     halted,
+    left_at,
     reported_rows,
     retracked,
     sent,
-    track_home,
+    tracked,
 )
 
 
@@ -27,7 +27,8 @@ class Motors:
 
     def __init__(self, *masses, faults=(), seed=0):
         self.masses, self.faults, self.rng = masses, faults, np.random.default_rng(seed)
-        self.travel, self.track = at_home(masses), track_home(masses)
+        self.travel = left_at(masses, {}, self.rng)
+        self.track = tracked(self.travel)
 
     def move(self, now, **targets_mm):
         targets = {name: mm * MM for name, mm in targets_mm.items()}

@@ -7,6 +7,7 @@ from scipy.signal import lfilter
 
 from equipoise.estimation.model_selection import dense_record, reference_fit
 from equipoise.estimation.model_selection.decimation import condensed
+from equipoise.estimation.model_selection.survey import survey
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.maths.attitude import exponential, multiply
@@ -72,7 +73,7 @@ def test_means_lose_less_than_a_fifth_of_an_sd() -> None:
         record = logged(seed)
         few = condensed(record, BED)
         assert few is not None
-        posterior = dense_record.surveyed_condensed(few, PARAMS)
+        posterior = survey(*dense_record.fitted_means(few, PARAMS))
         of_means = conclude(posterior.fitted, "trajectory", few.recording)
         of_rows = reference_fit.estimate(record, BED, PARAMS)
         off = (of_means.values(NAMES) - of_rows.values(NAMES)) / sds(of_rows)

@@ -208,6 +208,11 @@ def tilts(rows):
     return np.arccos(np.clip(-g @ UP / np.linalg.norm(g, axis=1), -1, 1))
 
 
+def spring(gains):
+    """Return X (m): how far the centre of mass would hang below P to swing as fast."""
+    return gains.gamma * gains.mass * gains.gravity
+
+
 def with_params(begun, **changes):
     """A beginning with other parameters."""
     return begun[0], replace(begun[1], **changes)

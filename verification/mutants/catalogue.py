@@ -89,7 +89,7 @@ ACTUATORS = _of(
 
 SENSORS = _of(
     "sensors",
-    ("timing.py", "0.5 * sensor.averaging", "sensor.averaging", "sensors/test_timing.py"),
+    ("timing.py", "- 0.5 * sensor.averaging", "- sensor.averaging", "sensors/test_timing.py"),
     ("gyro.py", "other if other < row else", "other if other <= row else", "sensors/test_gyro.py"),
     ("camera.py", "return less_cross(x, now.turn, 0.5)", "return less_cross(x, now.turn, -0.5)",
      "sensors/test_camera.py"),
@@ -136,8 +136,8 @@ ASSESSMENT = _of(
      "assessment/metrics/test_residual_torque.py"),
     ("metrics/torque_range.py", "return weight**2 * np.einsum", "return weight * np.einsum",
      "assessment/metrics/test_torque_range.py"),
-    ("record_checks/clock_offset.py", "_middle(camera) - _middle(gyro)",
-     "_middle(camera) + _middle(gyro)", "assessment/record_checks/test_clock_offset.py"),
+    ("record_checks/clock_offset.py", "lateness(camera) - lateness(gyro)",
+     "lateness(camera) + lateness(gyro)", "assessment/record_checks/test_clock_offset.py"),
     ("record_checks/frozen_rows.py", "(last - first + 1) < ALARMS", "(last - first + 1) > ALARMS",
      "assessment/record_checks/test_flagged_rows.py"),
     ("record_checks/rate_quality.py", "float(gaps.min())", "float(gaps.max())",

@@ -44,11 +44,8 @@ def reported(recording: Recording, devices: Sequence[Device]) -> Series:
     return recording.devices.values[:, [names.index(recorded_name(d)) for d in devices]]
 
 
-def stored_momentum(recording: Recording, testbed: Testbed, gimbals: bool = True) -> Samples | None:
-    """Return the momentum (n, 3) N m s of wheels and gyros; None where there are no such rows.
-
-    ``gimbals``: with that of the turning gimbals, which ``gimbal_maps`` give by themselves.
-    """
+def stored_momentum(recording: Recording, testbed: Testbed) -> Samples | None:
+    """Return the momentum (n, 3) N m s of wheels and gyros; None where there are no such rows."""
     wheels, cmgs, rows = testbed.wheels, testbed.cmgs, recording.devices
     if rows is None or not (wheels or cmgs):
         return None
@@ -58,7 +55,7 @@ def stored_momentum(recording: Recording, testbed: Testbed, gimbals: bool = True
     if cmgs:
         angles = reported(recording, cmgs)
         h += rotor_momentum(cmgs, angles)
-        if gimbals and len(rows) > 1:
+        if len(rows) > 1:
             h += gimbal_momentum(cmgs, np.gradient(angles, rows.t, axis=0))
     return Samples(rows.t, h)
 

@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.sliding_masses import MassMaps
-from equipoise.dynamics.regressor import Triple
 from equipoise.dynamics.rigid_body import (
     NO_TORQUE,
     ROWS,
@@ -42,7 +41,9 @@ from equipoise.dynamics.sensitivities import (
 )
 from equipoise.dynamics.timeline import Timeline
 from equipoise.maths.compiled import kernel, part
-from equipoise.model.arrays import Floats, Quaternion, Vector3, Vector6
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Floats, Quaternion, Triple, Vector3, Vector6
+from equipoise.model.mass_properties import MassProperties
 
 
 class Motion(NamedTuple):
@@ -64,6 +65,11 @@ def body_of(
     terms = NO_TORQUE if torque is None else tuple(float(x) for x in torque)
     torqued = any(x != 0 for x in terms)
     return Body(float(mass), float(gravity), six, three, torqued, terms)  # pyright: ignore
+
+
+def rigid_body(body: MassProperties, gravity: float, torque: Floats | None = None) -> Body:
+    """Return the same from mass properties."""
+    return body_of(body.mass, gravity, pack_symmetric(body.inertia_P), body.first_moment, torque)
 
 
 @part

@@ -16,8 +16,7 @@ The batch methods integrate these columns; the propagator's sensitivities are fo
 """
 
 from equipoise.maths.compiled import part
-from equipoise.maths.turns import Triple
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Triple
 
 INERTIA, MOMENT, TORQUE = 0, 6, 9  # first column of each block
 VISCOUS, QUADRATIC, CONSTANT, SWIRL, SAG, DRIFT = 0, 3, 4, 7, 8, 13  # within the torques

@@ -7,17 +7,10 @@ Small vectors and matrices are tuples here: the compiler keeps them in registers
 
 from typing import NamedTuple
 
-from equipoise.dynamics.regressor import (
-    DRIFT,
-    N_TORQUES,
-    Triple,
-    torque_columns,
-)
+from equipoise.dynamics.regressor import DRIFT, N_TORQUES, torque_columns
 from equipoise.dynamics.regressor import TORQUE as TORQUE_COLUMN
 from equipoise.maths.compiled import part
-from equipoise.model.arrays import Floats
-
-Six = tuple[float, float, float, float, float, float]
+from equipoise.model.arrays import Floats, Six, Triple
 
 ROWS = 7  # of the state before the sensitivities: q, H
 KNOWN_D = 6  # first mass displacement among the known inputs: wheel momentum, torque, masses

@@ -19,25 +19,11 @@ import numpy as np
 
 from equipoise.dynamics.regressor import INERTIA as INERTIA_COLUMN
 from equipoise.dynamics.regressor import MOMENT as MOMENT_COLUMN
-from equipoise.dynamics.regressor import QUADRATIC, SAG, SWIRL, WIDTH, Triple, regressor
+from equipoise.dynamics.regressor import QUADRATIC, SAG, SWIRL, WIDTH, regressor
 from equipoise.dynamics.regressor import TORQUE as TORQUE_COLUMN
-from equipoise.dynamics.rigid_body import (
-    HM,
-    KNOWN_D,
-    ROWS,
-    A,
-    B,
-    Body,
-    Now,
-    Six,
-    between,
-    cross,
-    times,
-)
+from equipoise.dynamics.rigid_body import HM, KNOWN_D, ROWS, A, B, Body, Now, between, cross, times
 from equipoise.maths.compiled import kernel, part
-from equipoise.model.arrays import Floats, Ints
-
-Nine = tuple[float, float, float, float, float, float, float, float, float]
+from equipoise.model.arrays import Floats, Ints, Nine, Six, Triple
 
 TURN, RATE, INERTIA, MOMENT, TORQUE, ERROR = 0, 1, 2, 3, 4, 5  # kinds of column
 LANES = 16  # columns in a block; with fewer the compiler (LLVM 20) does not vectorise

@@ -8,9 +8,7 @@ falls with the square of itself in each sweep.
 """
 
 from equipoise.maths.compiled import part
-
-Triple = tuple[float, float, float]
-Six = tuple[float, float, float, float, float, float]
+from equipoise.model.arrays import Six, Triple
 
 SWEEPS = 8  # chosen: six bring any matrix to rounding
 

@@ -13,8 +13,8 @@ a1 a2 a3 b12 b13 b23.
 import numpy as np
 
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.eigen import Six, eigen
-from equipoise.model.arrays import Floats, Matrix3, Vector6
+from equipoise.maths.eigen import eigen
+from equipoise.model.arrays import Floats, Matrix3, Six, Vector6
 
 FLOOR = 1e-6  # chosen: an impossible start is moved to this fraction of its trace
 

@@ -13,6 +13,11 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
+# What compiled functions pass to each other.
+Triple = tuple[float, float, float]
+Six = tuple[float, float, float, float, float, float]
+Nine = tuple[float, float, float, float, float, float, float, float, float]
+
 if TYPE_CHECKING:
     Vector3 = NDArray[np.float64]
     Vector6 = NDArray[np.float64]

@@ -5,7 +5,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
@@ -21,6 +21,7 @@ from equipoise.model.devices import (
 from equipoise.model.hardware import Hardware
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.presentation import Shown
+from equipoise.model.torque_terms import GROUPS
 from equipoise.model.weights import Weight, WeightGrid
 
 SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
@@ -165,6 +166,11 @@ class Testbed(Shown):
     hardware: Hardware | None = None  # what is connected; None: nothing, it can be simulated
 
     @property
+    def weight(self) -> float:
+        """Return m g, N."""
+        return self.body.mass * self.gravity
+
+    @property
     def devices(self) -> tuple[Device, ...]:
         """Return wheels, gyros, magnetorquers and jets; their names differ."""
         return (*self.wheels, *self.cmgs, *self.magnetorquers, *self.jets)
@@ -178,6 +184,15 @@ class Testbed(Shown):
     def mass_names(self) -> tuple[str, ...]:
         """Return the names of the sliding masses, in order."""
         return tuple(mass.name for mass in self.masses)
+
+    def in_group(self, group: str) -> tuple[str, ...]:
+        """Return the torques of a group (``model.torque_terms``) that are considered."""
+        return tuple(term for term in self.disturbances if term in GROUPS[group])
+
+    def without(self, group: str) -> "Testbed":
+        """Return the testbed without a group of torques among what is estimated."""
+        terms = tuple(term for term in self.disturbances if term not in GROUPS[group])
+        return replace(self, disturbances=terms)
 
     def mass_named(self, name: str) -> SlidingMass:
         """Return the sliding mass of that name; KeyError if there is none."""

@@ -19,8 +19,8 @@ A small change dth of the attitude (body axes), dphi and deta appear as
 from typing import NamedTuple
 
 from equipoise.maths.compiled import part
-from equipoise.maths.turns import Triple, to_body, to_laboratory, turned
-from equipoise.model.arrays import Floats
+from equipoise.maths.turns import to_body, to_laboratory, turned
+from equipoise.model.arrays import Floats, Triple
 
 PLUMB, HEADING, DELAY, GYRO = 0, 2, 14, 15  # where a list of coefficients keeps each group
 N_SENSOR = 24

@@ -4,10 +4,8 @@ w_said = (E + M) w + b         M: scale errors on the diagonal, misalignment bes
 """
 
 from equipoise.maths.compiled import part
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Nine
 from equipoise.sensors.camera import GYRO
-
-Nine = tuple[float, float, float, float, float, float, float, float, float]
 
 
 @part

@@ -42,11 +42,6 @@ class Travel:
     moves: int = 0  # accepted so far
 
 
-def at_home(masses: Sequence[SlidingMass]) -> Travel:
-    """Return masses that stand at home and have never moved."""
-    return standing(0.0, np.zeros((4, len(masses))))
-
-
 def standing(now: float, where: Floats) -> Travel:
     """Return masses that stand somewhere (4, k), sent nowhere since ``now`` (s)."""
     when = np.full(where.shape[1], now)
@@ -156,9 +151,10 @@ class Track:
     real: Floats  # (n, k) m
 
 
-def track_home(masses: Sequence[SlidingMass]) -> Track:
-    """Return the track of masses that stand at home."""
-    return Track(np.zeros(1), np.zeros((1, len(masses))), np.zeros((1, len(masses))))
+def tracked(travel: Travel) -> Track:
+    """Return the track from time zero on."""
+    nowhere = np.zeros((0, travel.end.shape[1]))
+    return retracked(Track(np.zeros(0), nowhere, nowhere), travel, 0.0)
 
 
 def retracked(track: Track, travel: Travel, now: float) -> Track:

@@ -19,11 +19,11 @@ import numpy as np
 from equipoise.actuators.control_moment_gyros import gimbal_maps
 from equipoise.actuators.sliding_masses import com_shift, inertia_shift, mass_maps
 from equipoise.actuators.stored_momentum import stored_momentum
-from equipoise.dynamics.propagation import body_of, stacked
+from equipoise.dynamics.propagation import rigid_body, stacked
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
-from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.bench_requests import check_duration
@@ -84,14 +84,12 @@ class SimulatedBench:
         self.testbed, self.seed = testbed, seed  # as stated; of all that is drawn
         self.platform = draw_truth(testbed, rng)
         body, truth, masses = self.platform.body, self.platform.truth, self.platform.masses
-        inertia = pack_symmetric(body.inertia_P)
-        torque = self.platform.torque
-        self._body = body_of(body.mass, testbed.gravity, inertia, body.first_moment, torque)
+        self._body = rigid_body(body, testbed.gravity, self.platform.torque)
         self._happens = times([*truth.contacts, *truth.com_steps])
         self._rails = mass_maps(masses)
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
         self._travel = actuator.left_at(masses, standing or {}, self._stops_rng)
-        self._track = actuator.retracked(actuator.track_home(masses), self._travel, 0.0)
+        self._track = actuator.tracked(self._travel)
         self._normals = np.zeros(len(masses))  # stop errors of legs, of one sd
         self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
         self._lead = max(lead(testbed.attitude), lead(testbed.gyro))

@@ -1,6 +1,6 @@
-"""A whole recording of a bench whose masses move and devices work at given times.
+"""A whole recording of a simulated bench whose masses move and devices work at given times.
 
-A planned manoeuvre on a simulated bench begins with a hand that lets go nearly as planned:
+A planned manoeuvre starts with a hand that lets go nearly as planned:
 
     tilt    the planned lean, with a normal error about each level axis; any heading
     rate    the planned one, with a normal error of each component
@@ -25,6 +25,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.draw_truth import own_truth
 
+HAND = 9  # chosen: sets the hand's draws apart from the bench's own, which spawn from the seed
 Moves = Sequence[tuple[float, Mapping[str, float]]]
 
 
@@ -34,34 +35,6 @@ class Command(NamedTuple):
     t: float
     targets: Mapping[str, float]
     inputs: Mapping[str, float]
-
-
-def record(testbed: Testbed, duration: float, moves: Moves, seed: int) -> Recording:
-    """Return ``duration`` seconds with masses sent to targets (m) at times (s) in order."""
-    return recorded(SimulatedBench(testbed, seed), duration, moves)
-
-
-def recorded(bench: Bench, duration: float, moves: Moves) -> Recording:
-    """Return the same of a bench that has not been read yet."""
-    return commanded(bench, duration, [Command(t, targets, {}) for t, targets in moves])
-
-
-def commanded(bench: Bench, duration: float, commands: Sequence[Command]) -> Recording:
-    """Return ``duration`` seconds of a fresh bench that gets these commands in order."""
-    recording = bench.read(0.0)
-    for command in commands:
-        if not bench.time <= command.t <= duration:
-            wanted = f"times in order, from 0 to {duration:g} s"
-            raise InputError("moves", f"one at {command.t:g} s", wanted)
-        recording = join(recording, bench.read(command.t - bench.time))
-        if command.targets:
-            bench.move(command.targets)
-        if command.inputs:
-            bench.drive(command.inputs)
-    return join(recording, bench.read(duration - bench.time))
-
-
-HAND = 9  # chosen: sets the hand's draws apart from the bench's own, which spawn from the seed
 
 
 def met_start(
@@ -107,3 +80,28 @@ def simulated(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Recording:
 def carried_out(bench: Bench, manoeuvre: Manoeuvre) -> Recording:
     """Return what a fresh bench records of a manoeuvre."""
     return commanded(bench, manoeuvre.duration, commands_of(manoeuvre))
+
+
+def record(testbed: Testbed, duration: float, moves: Moves, seed: int) -> Recording:
+    """Return ``duration`` seconds with masses sent to targets (m) at times (s) in order."""
+    return recorded(SimulatedBench(testbed, seed), duration, moves)
+
+
+def recorded(bench: Bench, duration: float, moves: Moves) -> Recording:
+    """Return the same of a bench that has not been read yet."""
+    return commanded(bench, duration, [Command(t, targets, {}) for t, targets in moves])
+
+
+def commanded(bench: Bench, duration: float, commands: Sequence[Command]) -> Recording:
+    """Return ``duration`` seconds of a fresh bench that gets these commands in order."""
+    recording = bench.read(0.0)
+    for command in commands:
+        if not bench.time <= command.t <= duration:
+            wanted = f"times in order, from 0 to {duration:g} s"
+            raise InputError("moves", f"one at {command.t:g} s", wanted)
+        recording = join(recording, bench.read(command.t - bench.time))
+        if command.targets:
+            bench.move(command.targets)
+        if command.inputs:
+            bench.drive(command.inputs)
+    return join(recording, bench.read(duration - bench.time))

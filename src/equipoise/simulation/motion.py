@@ -16,11 +16,10 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.dynamics.propagation import NO_COLUMNS, evaluate, step
-from equipoise.dynamics.regressor import Triple
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at
 from equipoise.dynamics.sensitivities import Columns, Inputs, work_for
 from equipoise.maths.compiled import kernel, part
-from equipoise.model.arrays import Floats, Ints
+from equipoise.model.arrays import Floats, Ints, Triple
 
 TURN = 0.0125  # rad, chosen: energy then drifts by less than 1e-9 in ten minutes
 LONGEST = 0.25  # s, chosen

@@ -88,7 +88,7 @@ def gone(masses: Samples | None) -> float:
 def rms_torque(bench: SimulatedBench, tilt: float) -> float:
     """Return the torque (N m) that the platform really leaves, rms within a tilt (rad)."""
     testbed = bench.testbed
-    weight = testbed.body.mass * testbed.gravity
+    weight = testbed.weight
     return weight * residual_torque(bench.com, bench.sag, testbed.up, tilt)
 
 
@@ -104,7 +104,7 @@ def followed_torque(bench: SimulatedBench, following: Following, tilt: float) ->
         here = last_row(bench.read(wait).masses, here)
         lever: Floats = skew(bench.com + bench.sag @ down) @ down
         square += float(weight[0]) * float(lever @ lever)
-    return testbed.body.mass * testbed.gravity * square**0.5
+    return testbed.weight * square**0.5
 
 
 def ran_out(step: Step) -> bool:

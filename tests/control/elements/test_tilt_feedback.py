@@ -29,6 +29,7 @@ from tests.support.ideal_bench import (
     closed_loop,
     platform,
     rails,
+    spring,
     tilts,
 )
 
@@ -153,9 +154,9 @@ def test_the_printed_law_leaves_what_was_published(com_mm, predicted_um, simulat
     rows = run(com, gains, 30.0, bench)
     across = np.hypot(*(com - rows[-2].state.held)[:2])
     assert 1e6 * across == pytest.approx(simulated_um, rel=0.01)
-    predicted = np.hypot(*com[:2]) * abs(com[2]) / (abs(com[2]) + gains.spring)
+    predicted = np.hypot(*com[:2]) * abs(com[2]) / (abs(com[2]) + spring(gains))
     assert 1e6 * predicted == pytest.approx(predicted_um, rel=1e-3)
-    down = com + np.array([0, 0, -gains.spring])
+    down = com + np.array([0, 0, -spring(gains)])
     n = down / np.linalg.norm(down)
     left = np.hypot(*(rows[-2].shift + com)[:2])
     assert left == pytest.approx(abs(com @ n) * np.hypot(*n[:2]), rel=1e-3)

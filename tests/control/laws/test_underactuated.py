@@ -25,6 +25,7 @@ from tests.support.ideal_bench import (
     closed_loop,
     platform,
     rails,
+    spring,
     tilts,
     total,
     with_params,
@@ -89,7 +90,7 @@ def test_each_round_leaves_the_printed_share_and_the_integral_nothing():
     aside = float(np.hypot(*COM[:2]))  # rh(0) is nought across
     for row in ends(rows)[:2]:
         com = row.shift + bench.com
-        aside *= abs(com[2]) / (abs(com[2]) + params.gains.spring)
+        aside *= abs(com[2]) / (abs(com[2]) + spring(params.gains))
         # To first order in the tilt; the first round's is 0.083 rad.
         assert np.hypot(*com[:2]) == pytest.approx(aside, rel=0.01)
     assert aside > 3e-6

@@ -12,7 +12,7 @@ cv2 = pytest.importorskip("cv2", reason="the extra 'camera' is not installed")
 
 from equipoise.hardware.camera import aruco  # noqa: E402
 from equipoise.hardware.camera.calibration import lens_from  # noqa: E402
-from equipoise.hardware.camera.eye import (  # noqa: E402  # noqa: E402
+from equipoise.hardware.camera.eye import (  # noqa: E402
     camera_to_laboratory,
     eye_of,
     lens_of,

@@ -13,7 +13,7 @@ from equipoise.maths.attitude import leaning, tilt, to_matrix
 from equipoise.maths.axes_across import axes_across
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import SquareWave
-from equipoise.planning.manoeuvre.criterion import score, sizes
+from equipoise.planning.manoeuvre.criterion import score, size_of
 from equipoise.planning.manoeuvre.limit_check import (
     covariance_of,
     for_search,
@@ -64,7 +64,8 @@ def test_a_lean_lowers_the_side_that_is_named():
 def test_sizes_and_scores_by_hand():
     """Moments 0.25 and 1: 1 % is 0.0025 and 0.01, of the product 0.005. A of 3, 4: 3.54."""
     body = bed().body
-    found = sizes(type(body)(body.mass, body.com, np.diag([0.25, 1.0, 1.0])))
+    body = type(body)(body.mass, body.com, np.diag([0.25, 1.0, 1.0]))
+    found = size_of(body, (*INERTIA, *COM))
     np.testing.assert_allclose(found, [0.0025, 0.01, 0.01, 0.005, 0.005, 0.01, 1e-6, 1e-6, 1e-6])
     covariance = np.diag([9.0, 64.0])
     size = np.array([1.0, 2.0])

@@ -45,7 +45,7 @@ def still():
 def test_torque_and_distance_hold_the_truth(still):
     found, _ = still
     bed = found.testbed
-    weight = bed.body.mass * bed.gravity
+    weight = bed.weight
     true = weight * residual_torque(COM, STIFF, bed.up, np.radians(20.0))
     assert found.torque.rms.low < true < found.torque.rms.high
     assert found.offset.low < np.linalg.norm(COM) < found.offset.high
@@ -66,7 +66,7 @@ def test_the_verdict_is_of_both_requirements(still):
 def test_an_inertia_known_badly_leaves_it_open():
     """The torque is 2.8 mN m; with J known to 10 % 2.7 mN m is neither met nor missed for sure."""
     found, steps = assessed(noisy(recording(60.0), 3), platform(), require_torque=2.7e-3)
-    weight = found.weight
+    weight = found.testbed.weight
     true = weight * residual_torque(COM, STIFF, found.testbed.up, np.radians(20.0))
     assert true == pytest.approx(2.8e-3, rel=0.05)
     assert steps[-1].verdict.outcome == "undecided"
@@ -103,8 +103,8 @@ def test_a_platform_that_sags_has_the_torque_of_both():
     )
     bench = SimulatedBench(replace(bed, truth=truth), 5)
     found, _ = assessed(bench.read(40.0), bed)
-    true = found.weight * residual_torque(bench.com, bench.sag, bed.up, np.radians(20.0))
-    stiff = found.weight * residual_torque(bench.com, STIFF, bed.up, np.radians(20.0))
+    true = found.testbed.weight * residual_torque(bench.com, bench.sag, bed.up, np.radians(20.0))
+    stiff = found.testbed.weight * residual_torque(bench.com, STIFF, bed.up, np.radians(20.0))
     assert len(found.pull.names) == 8
     assert found.torque.rms.low < true < found.torque.rms.high
     assert abs(true - stiff) > 0.05 * true

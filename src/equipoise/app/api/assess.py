@@ -10,16 +10,14 @@ from equipoise.app.runs.waiting import passing_on
 from equipoise.model.step import Step
 from equipoise.procedure.identification.assess import AssessOptions
 
-TILT = math.radians(20.0)
-
 
 def assess(
     recording: inputs.AnyRecording,
     testbed: inputs.AnyTestbed,
     *,
     before: inputs.AnyRecording | None = None,
-    tilt: float = TILT,
-    target: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    tilt: float = inputs.TILT,
+    target: checks.Triple = (0.0, 0.0, 0.0),
     require_torque: float | None = None,
     require_offset: float | None = None,
     windows: float | None = None,

@@ -11,8 +11,6 @@ from equipoise.model.step import Step
 from equipoise.procedure.balancing.catalogue import CARDS, OWN
 from equipoise.simulation.carried_out import bench_for
 
-Triple = tuple[float, float, float]
-
 
 def balance(
     platform: Bench | AnyTestbed,
@@ -20,8 +18,8 @@ def balance(
     law: str = OWN.name,
     seed: int = 1,
     plan: AnyPlan | None = None,
-    target: Triple = (0.0, 0.0, -100e-6),
-    tolerance: Triple = (2e-6, 2e-6, 3e-6),
+    target: checks.Triple = (0.0, 0.0, -100e-6),
+    tolerance: checks.Triple = (2e-6, 2e-6, 3e-6),
     max_moves: int | None = None,
     max_time: float | None = None,
     hold: float = 0.0,

@@ -1,15 +1,11 @@
 """Compare: methods on the same recordings, laws on the same platforms."""
 
-import math
 from collections.abc import Mapping, Sequence
 
 from equipoise.app.arguments import checks
-from equipoise.app.arguments.inputs import AnyTestbed, options_from, testbed_from
+from equipoise.app.arguments.inputs import TILT, AnyTestbed, options_from, testbed_from
 from equipoise.app.runs.comparison import Compared, Contest, LawGoal, names_of, run_all
 from equipoise.study.method_record import Scene
-
-TILT = math.radians(20.0)
-Triple = tuple[float, float, float]
 
 
 def compare(
@@ -25,8 +21,8 @@ def compare(
     terms: Sequence[str] = (),
     hold: Sequence[str] = (),
     use_prior: bool = False,
-    target: Triple = (0.0, 0.0, 0.0),
-    tolerance: Triple = (2e-6, 2e-6, 3e-6),
+    target: checks.Triple = (0.0, 0.0, 0.0),
+    tolerance: checks.Triple = (2e-6, 2e-6, 3e-6),
     tilt: float = TILT,
     require_torque: float = 1e-5,
     max_time: float = 600.0,

@@ -1,22 +1,19 @@
 """Design: whether masses and sensors are good enough, and what limits them."""
 
-import math
 from collections.abc import Mapping, Sequence
 
-from equipoise.app.arguments.checks import not_negative, one_of, positive, vector
-from equipoise.app.arguments.inputs import AnyTestbed, testbed_with_masses
+from equipoise.app.arguments.checks import Triple, not_negative, one_of, positive, vector
+from equipoise.app.arguments.inputs import TILT, AnyTestbed, testbed_with_masses
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.environment import Surroundings
 from equipoise.planning.sizing.sizing import Sizing, sized
-
-TILT = math.radians(20.0)
 
 
 def design(
     testbed: AnyTestbed,
     *,
     durations: Sequence[float] = (30.0, 60.0, 120.0, 300.0),
-    target: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    target: Triple = (0.0, 0.0, 0.0),
     tilt: float = TILT,
     moves: int = 2,
     misalignment: float = 0.0,

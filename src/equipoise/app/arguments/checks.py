@@ -7,6 +7,7 @@ from typing import TypeVar
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError, nearest
 
+Triple = tuple[float, float, float]
 MaybeNumber = TypeVar("MaybeNumber", float, float | None)
 
 
@@ -45,7 +46,7 @@ def one_of(option: str, name: str, known: list[str]) -> str:
     return name
 
 
-def vector(option: str, values: tuple[float, float, float], unit: float) -> Vector3:
+def vector(option: str, values: Triple, unit: float) -> Vector3:
     """Return three finite numbers as a vector in SI."""
     import numpy as np
 
@@ -54,7 +55,7 @@ def vector(option: str, values: tuple[float, float, float], unit: float) -> Vect
     return np.array(values, dtype=float) * unit
 
 
-def tolerance(option: str, values: tuple[float, float, float], unit: float) -> Vector3:
+def tolerance(option: str, values: Triple, unit: float) -> Vector3:
     """Return three numbers above zero as a vector in SI."""
     for value in values:
         positive(option, value)

@@ -56,7 +56,7 @@ class Exposure:
     air_torque: float = 1e-6
 
 
-NOTHING_STATED = Exposure()
+CALM = Exposure()
 
 
 def surroundings_of(exposure: Exposure) -> "Surroundings":

@@ -1,5 +1,6 @@
 """What verbs and commands take, resolved: testbeds, recordings, plans, options of a fit, moves."""
 
+import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 AnyTestbed = Testbed | str | Path  # a path goes before a preset's name
 AnyRecording = Recording | str | Path
 AnyPlan = Plan | str | Path
+TILT = math.radians(20.0)  # that torques are judged within, unless another is requested
 FEWEST = 3  # rows of a sensor that a window must leave, as when a file is read
 MOVE = re.compile(r"\s*(?P<time>[^:\s]+)\s*:\s*(?P<goals>\S+=\S+(?:[\s,]+\S+=\S+)*)\s*")
 WANTED_MOVE = "'seconds: mass=mm mass=mm', such as '60: x1=-10 z1=-50'"

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.environment import NOTHING_STATED, Exposure, surroundings_of
+from equipoise.app.arguments.environment import CALM, Exposure, surroundings_of
 from equipoise.app.arguments.options import Json, Several, Triple, Whole
 from equipoise.app.console.terminal import busy
 
@@ -16,7 +16,7 @@ def design(
     tilt_deg: float = 20.0,
     moves: Whole = 2,
     misalignment_deg: float = 0.0,
-    exposure: Exposure = NOTHING_STATED,
+    exposure: Exposure = CALM,
     require_torque: float | None = None,
     json: Json = False,
     out: Path | None = None,

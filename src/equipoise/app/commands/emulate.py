@@ -9,8 +9,6 @@ from equipoise.app.console.terminal import busy, stdout
 if TYPE_CHECKING:
     from equipoise.app.bench.emulation import EmulatedBench
 
-CAUGHT = 1.1  # of the tilt limit, chosen: where somebody catches the platform
-
 
 def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | None = None) -> int:
     """Start emulated devices that speak the real protocols, moved by a simulated platform.
@@ -56,6 +54,7 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
 
 def _run(bench: "EmulatedBench", longest: float) -> None:
     """Run as the clock on the wall does, until then or until Ctrl-C."""
+    from equipoise.app.bench.held_platform import CAUGHT
     from equipoise.hardware.bench.wall_clock import WallClock
     from equipoise.model.units import UM
 

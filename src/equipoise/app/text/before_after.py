@@ -62,16 +62,12 @@ def _component(axis: int, change: Change, at: ComEstimate, inertia: Matrix3) -> 
 
 
 def _torque(change: Change, at: ComEstimate, inertia: Matrix3) -> Uncertain:
-    return level_torque(_weight(change), at.com, at.sd, change.testbed.up)
+    return level_torque(change.testbed.weight, at.com, at.sd, change.testbed.up)
 
 
 def _period(change: Change, at: ComEstimate, inertia: Matrix3) -> Uncertain:
-    period = swing_period(_weight(change), at.com, at.sd, inertia, change.testbed.up)
+    period = swing_period(change.testbed.weight, at.com, at.sd, inertia, change.testbed.up)
     return with_doubtful_inertia(period, change.inertia_sd)
-
-
-def _weight(change: Change) -> float:
-    return change.testbed.body.mass * change.testbed.gravity
 
 
 def _row(name: str, unit: Unit, change: Change, quantity: Quantity) -> tuple[str, ...]:

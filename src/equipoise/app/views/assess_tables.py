@@ -86,7 +86,7 @@ def metric_rows(done: Assessment) -> Iterator[Row]:
 def period_row(done: Assessment, hanging: Hanging) -> Row:
     """Return the row of a swing."""
     period, sd = 1 / hanging.swing.frequency, hanging.swing.sd / hanging.swing.frequency**2
-    value, spread = hanging.moment / done.weight, hanging.sd / done.weight
+    value, spread = hanging.moment / done.testbed.weight, hanging.sd / done.testbed.weight
     fit, fit_sd = distance(done.com, done.com_unscaled)
     name = f"{MODES[hanging.mode]}, {' +/- '.join(with_sd(period, sd))} s"
     off = abs(value - fit) / float(np.hypot(spread, fit_sd))

@@ -145,7 +145,7 @@ def platform_of(done: Assessment) -> View:
         "done": done,
         "torque": along_record(metrics.torque, metrics.torque_fit),
         "energy": along_record(metrics.energy, metrics.energy_fit),
-        "swings": [swing_of(each, done.weight) for each in metrics.hanging],
+        "swings": [swing_of(each, done.testbed.weight) for each in metrics.hanging],
     }
 
 

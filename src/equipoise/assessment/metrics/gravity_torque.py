@@ -25,7 +25,7 @@ def gravity_torque(
     testbed: Testbed, q: Series4, com: Series3, covariance: Matrix3
 ) -> tuple[Series3, Series3]:
     """Return torque and its sd (N m, body axes), (n, 3) each, of a com (m) with its covariance."""
-    weight = testbed.body.mass * testbed.gravity
+    weight = testbed.weight
     n = down(q)
     lever = np.cross(n[:, None, :], EYE)  # (n, 3, 3): the rows of [n]x, up to sign
     variance = np.einsum("nij,jk,nik->ni", lever, covariance, lever)

@@ -28,7 +28,7 @@ def motion_energy(
     com and of J as xx yy zz xy xz yz.
     """
     q, w, com = motion
-    weight, up = testbed.body.mass * testbed.gravity, -down(q)
+    weight, up = testbed.weight, -down(q)
     momentum = w @ inertia_P
     kinetic, potential = 0.5 * np.sum(w * momentum, axis=1), weight * np.sum(com * up, axis=1)
     by_com = np.hstack([weight * up, np.zeros((len(q), 6))])

@@ -28,6 +28,7 @@ from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro
+from equipoise.sensors.timing import lateness
 
 FARTHEST = 1.0  # s: later than this no camera is (chosen)
 TRIED = 81  # lags from which the best is refined; chosen: one each 25 ms
@@ -55,7 +56,7 @@ def offset_findings(
     reported = None if attitude is None or rate is None else clock_offset(attitude, rate)
     if reported is None:
         return []
-    wanted = _middle(camera) - _middle(gyro)
+    wanted = lateness(camera) - lateness(gyro)
     wrong = abs(reported.lag - wanted) > max(SURE_SD * reported.sd, MATTERS)
     numbers = {"lag": reported.lag, "sd": reported.sd, "stated": wanted}
     code = Why.ATTITUDE_LATE_UNSTATED if wrong and (camera or gyro) else Why.ATTITUDE_LATE
@@ -81,10 +82,6 @@ def clock_offset(attitude: Samples, rate: Samples) -> ClockOffset | None:
     sd = _sd(_slope(pairs, rate, lag), left)
     likely = float(np.sum(left**2)) < (1.0 - SURE**2) * float(np.sum(pairs.centred**2))
     return ClockOffset(lag, sd) if sd < VAGUE and abs(lag) < FARTHEST and likely else None
-
-
-def _middle(sensor: AttitudeSensor | Gyro | None) -> float:
-    return 0.0 if sensor is None else sensor.delay + 0.5 * sensor.averaging
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -27,6 +27,7 @@ from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor
+from equipoise.sensors.timing import lateness
 
 NAMED = 5  # odd rows that are named one by one; chosen: a screen
 FEWEST = 20  # rows for the estimate of a window (chosen)
@@ -95,8 +96,8 @@ def with_window(sensor: AttitudeSensor, averaging: RowAveraging) -> AttitudeSens
     A row stamped t stands for t - delay - averaging / 2. The window grows about that moment, so the
     delay shrinks by half of what the averaging gains: below zero for rows stamped at their middle.
     """
-    middle = sensor.delay + 0.5 * sensor.averaging
-    return replace(sensor, averaging=averaging.window, delay=middle - 0.5 * averaging.window)
+    delay = lateness(sensor) - 0.5 * averaging.window
+    return replace(sensor, averaging=averaging.window, delay=delay)
 
 
 def _speed_squared(attitude: Samples) -> Series1:

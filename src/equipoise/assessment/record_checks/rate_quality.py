@@ -22,32 +22,6 @@ FEWEST = 20  # rows for a verdict on quantisation (chosen)
 THIRD = math.sqrt(20)  # sd of the third difference of unit white noise
 
 
-def quantisation_findings(rate: Samples) -> list[Finding]:
-    """Return the step of each axis that has one: a problem where it is above the noise."""
-    return [f for name, x in zip("xyz", rate.values.T, strict=True) for f in _quantised(name, x)]
-
-
-def step_of(x: Series1) -> float | None:
-    """Return the step that all values are whole multiples of apart, None if there is none."""
-    levels = np.unique(x)
-    if len(x) < FEWEST or not 1 < len(levels) < MANY * len(x):
-        return None
-    gaps = np.diff(levels)
-    # Values that went through a change of unit differ in the last bits: those are no steps.
-    gaps = gaps[gaps > 1e-9 * np.abs(levels).max()]
-    step = float(gaps.min())
-    return step if np.abs(gaps / step - np.round(gaps / step)).max() < WHOLE else None
-
-
-def _quantised(name: str, x: Series1) -> list[Finding]:
-    step = step_of(x)
-    if step is None:
-        return []
-    found = one_reason(Why.QUANTISED, name, step=step)
-    noise = float(np.std(np.diff(x, n=3))) / THIRD
-    return [Finding("problem" if step > COARSE * noise else "content", found)]
-
-
 def rate_findings(rate: Samples | None) -> list[Finding]:
     """Return what is odd about a gyro, and how noisy it is."""
     if rate is None or len(rate) < 4:
@@ -86,3 +60,29 @@ def rate_noise(rate: Samples) -> float:
 
 def _noise(rate: Samples) -> Finding:
     return Finding("content", one_reason(Why.GYRO_NOISE, noise=rate_noise(rate)))
+
+
+def quantisation_findings(rate: Samples) -> list[Finding]:
+    """Return the step of each axis that has one: a problem where it is above the noise."""
+    return [f for name, x in zip("xyz", rate.values.T, strict=True) for f in _quantised(name, x)]
+
+
+def step_of(x: Series1) -> float | None:
+    """Return the step that all values are whole multiples of apart, None if there is none."""
+    levels = np.unique(x)
+    if len(x) < FEWEST or not 1 < len(levels) < MANY * len(x):
+        return None
+    gaps = np.diff(levels)
+    # Values that went through a change of unit differ in the last bits: those are no steps.
+    gaps = gaps[gaps > 1e-9 * np.abs(levels).max()]
+    step = float(gaps.min())
+    return step if np.abs(gaps / step - np.round(gaps / step)).max() < WHOLE else None
+
+
+def _quantised(name: str, x: Series1) -> list[Finding]:
+    step = step_of(x)
+    if step is None:
+        return []
+    found = one_reason(Why.QUANTISED, name, step=step)
+    noise = float(np.std(np.diff(x, n=3))) / THIRD
+    return [Finding("problem" if step > COARSE * noise else "content", found)]

@@ -71,11 +71,6 @@ class Gains(NamedTuple):
     integral: float  # rad/s, w_i
     period: float  # s
 
-    @property
-    def spring(self) -> float:
-        """Return X (m): how far the centre of mass would hang below P to swing as fast."""
-        return self.gamma * self.mass * self.gravity
-
 
 def gains_at(testbed: Testbed, frequency: float, integral: float, period: float) -> Gains:
     """Return the gains for a closed loop of that frequency w_a (rad/s)."""
@@ -130,7 +125,7 @@ def settling(frequency: float, integral: float, swing: float) -> float:
 
 def swing_of(testbed: Testbed, height: float) -> float:
     """Return w_z^2 (rad^2/s^2) of a centre of mass that high (m) above P."""
-    return -testbed.body.mass * testbed.gravity * height / offsets.level_inertia(testbed)
+    return -testbed.weight * height / offsets.level_inertia(testbed)
 
 
 def frequency_for(testbed: Testbed, period: float) -> float:
@@ -141,7 +136,7 @@ def frequency_for(testbed: Testbed, period: float) -> float:
 
 def least_frequency(testbed: Testbed, offset: float) -> float:
     """Return w_a (rad/s) below which an offset (m), or an inverted pendulum, tilts too far."""
-    weight = testbed.body.mass * testbed.gravity / offsets.level_inertia(testbed)
+    weight = testbed.weight / offsets.level_inertia(testbed)
     sideways = weight * offset / (TILTED * testbed.tilt_limit)
     upright = max(-swing_of(testbed, offsets.likely_height(testbed)), 0.0) / UPRIGHT
     return float(max(sideways, upright) ** 0.5)

@@ -129,7 +129,7 @@ def sweep_speed(testbed: Testbed) -> float:
 
 def frequency_for(testbed: Testbed, wish: float) -> float:
     """Return w_a (rad/s), as wished if it can be; InputError where the loop is not stable."""
-    weight = testbed.body.mass * testbed.gravity / offsets.level_inertia(testbed)
+    weight = testbed.weight / offsets.level_inertia(testbed)
     least = (weight * offsets.likely_offset(testbed) / (STRAY * testbed.tilt_limit)) ** 0.5
     return float(np.clip(wish, least, offsets.greatest_frequency(testbed, least, SPEED, PERIOD)))
 
@@ -144,7 +144,7 @@ def spare(testbed: Testbed) -> Capacity:
 
 def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
     """Return the cone's half-angle (rad) that tilt limit, torque and momentum allow."""
-    J, weight = offsets.level_inertia(testbed), testbed.body.mass * testbed.gravity
+    J, weight = offsets.level_inertia(testbed), testbed.weight
     offset, have = offsets.likely_offset(testbed), spare(testbed)
     low = abs(float(testbed.up @ (testbed.body.com - target)))
     low += offsets.LIKELY * offsets.height_sd(testbed)

@@ -147,7 +147,7 @@ def weakest_jet(testbed: Testbed) -> float:
 def likely_weight(testbed: Testbed) -> float:
     """Return the torque (N m) of an offset that few exceed."""
     offset = np.linalg.norm(testbed.body.com) + LIKELY * np.linalg.norm(testbed.com_sd)
-    return float(testbed.body.mass * testbed.gravity * offset)
+    return float(testbed.weight * offset)
 
 
 def refuse(found: str, wanted: str) -> InputError:

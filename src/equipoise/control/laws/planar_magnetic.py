@@ -102,7 +102,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     up = testbed.up
     J = moment_across(testbed.body.inertia_P, up)
     (depth, hang), speed = swings.hanging_shift(testbed, 2 * FLOOR), fastest_slew(testbed)
-    plant = feedback.Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
+    plant = feedback.Plant(J, testbed.weight, coils_of(testbed))
     params = Params(plant, up, target, depth, speed, swings.held(testbed), testbed.inertia_sd)
     loop = feedback.loop_for(plant, depth)
     if plant.coils == 0 or loop.integral * TEN_DEGREES > FAST * speed:

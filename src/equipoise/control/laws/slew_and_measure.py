@@ -31,7 +31,7 @@ from equipoise.control.law import Law, Sample
 from equipoise.control.plant.pendulum import hanging
 from equipoise.control.plant.settling import UNREPORTED, Stand, standing
 from equipoise.control.plant.swing_estimates import METHOD as FREE
-from equipoise.control.plant.swing_estimates import drift_of, of_group, shows, why_not_shown
+from equipoise.control.plant.swing_estimates import drift_of, shows, why_not_shown
 from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
@@ -118,9 +118,9 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         raise InputError("slew_and_measure", "a testbed without them",
                          "sliding masses, and wheels or gyros along all axes")  # fmt: skip
     pace = slews.pace_for(float(np.linalg.eigvalsh(J)[-1]), can)
-    turns, held = attitudes(testbed), of_group(testbed, "drift")
+    turns, held = attitudes(testbed), testbed.in_group("drift")
     lasting = sum(ways(testbed.up, turns, pace))
-    needed = testbed.body.mass * testbed.gravity * lasting  # N m s per m
+    needed = testbed.weight * lasting  # N m s per m
     bearable = can.momentum / needed
     if bearable < CLOSE:
         raise InputError("slew_and_measure", f"wheels or gyros that store {can.momentum:.3g} N m s",
@@ -219,7 +219,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
         return state, Command(shift=state.shift, measurement=free)
     state = turning(state, sample, params)
     if state.at == len(params.turns):
-        stiff = of_group(params.testbed, "sag")
+        stiff = params.testbed.in_group("sag")
         turns = Measurement(AFTER, METHOD, hold=stiff, since=state.began)
         return state, Command(shift=state.shift, measurement=turns)
     return driven(state, sample, params)

@@ -35,7 +35,6 @@ from equipoise.control.elements import tilt_feedback as feedback
 from equipoise.control.law import Sample
 from equipoise.control.plant import offset_bounds as offsets
 from equipoise.control.plant.actuator_limits import greatest_shift, greatest_slew, limited
-from equipoise.control.plant.swing_estimates import of_group
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
@@ -105,7 +104,7 @@ def method_for(testbed: Testbed) -> Measurement:
         raise InputError(testbed.name, "no gyro, or no attitude sensor", "both")
     if float(np.linalg.norm(spread)) <= ACROSS:
         return Measurement(MEASURED, "ukf_4")
-    return Measurement(MEASURED, "trajectory", hold=of_group(testbed, "drift"), use_prior=True)
+    return Measurement(MEASURED, "trajectory", hold=testbed.in_group("drift"), use_prior=True)
 
 
 def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Params]:
@@ -134,7 +133,7 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
 def push_for(testbed: Testbed) -> float:
     """Return how far (m) the centre of mass goes aside for a swing of the wanted size."""
     rate = SWING * testbed.tilt_limit / MEASURED
-    wanted = rate * offsets.level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
+    wanted = rate * offsets.level_inertia(testbed) / (testbed.weight * PUSH)
     return min(wanted, greatest_slew(testbed) * PUSH)
 
 

@@ -26,13 +26,13 @@ import numpy as np
 
 from equipoise.control.law import Sample
 from equipoise.control.plant.actuator_limits import filling_time, greatest_shift, greatest_slew
-from equipoise.control.plant.swing_estimates import of_group
 from equipoise.maths.axes_across import axes_across
 from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Floats, Series, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
+from equipoise.sensors.timing import lateness
 
 SURE = 3.0  # sds of the height, chosen
 LIKELY = 2.0  # sds of the sideways offset, chosen
@@ -96,7 +96,7 @@ def spared(plant: Hanging, p: Floats, d: Floats, tilt: Floats, rate: Floats) -> 
 def sensor_delay(testbed: Testbed) -> float:
     """Return by how much the later of camera and gyro is late, s."""
     seeing = [s for s in (testbed.attitude, testbed.gyro) if s is not None]
-    return max((s.delay + s.averaging / 2 for s in seeing), default=0.0)
+    return max((lateness(s) for s in seeing), default=0.0)
 
 
 def finest_step(testbed: Testbed, axes: Series) -> float:
@@ -128,8 +128,8 @@ def hanging(testbed: Testbed) -> Hanging:
     axes = axes_across(up)
     moments = np.einsum("ij,jk,ik->i", axes, body.inertia_P, axes)
     return Hanging(
-        up, axes, body.mass * testbed.gravity / moments, -height - lowered, lowered,
+        up, axes, testbed.weight / moments, -height - lowered, lowered,
         float(np.abs(up) @ testbed.com_sd), greatest_slew(testbed), reach,
         finest_step(testbed, axes), sensor_delay(testbed), filling_time(testbed),
-        of_group(testbed, "drift"),
+        testbed.in_group("drift"),
     )  # fmt: skip

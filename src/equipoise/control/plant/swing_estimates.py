@@ -52,7 +52,7 @@ def held(testbed: Testbed) -> tuple[str, ...]:
     x, y = (i for i in range(3) if i != z)
     pairs = ((x, x), (z, z), (x, z), (y, z))
     J = tuple("inertia_P_" + "".join("xyz"[i] for i in sorted(pair)) for pair in pairs)
-    return (*J, *of_group(testbed, "sag"), *of_group(testbed, "drift"))
+    return (*J, *testbed.in_group("sag"), *testbed.in_group("drift"))
 
 
 def hanging_shift(testbed: Testbed, least: float) -> tuple[float, float]:
@@ -64,11 +64,6 @@ def hanging_shift(testbed: Testbed, least: float) -> tuple[float, float]:
     up, sd = testbed.up, testbed.com_sd
     depth = max(STEEP * float(np.linalg.norm(sd - (sd @ up) * up)), least)
     return depth, depth + UNSURE * float(abs(up @ sd)) + float(testbed.body.com @ up)
-
-
-def of_group(testbed: Testbed, group: str) -> tuple[str, ...]:
-    """Return the torques of a group (``model.torque_terms``) that a testbed considers."""
-    return tuple(term for term in testbed.disturbances if term in GROUPS[group])
 
 
 def shows(estimate: Estimate) -> bool:

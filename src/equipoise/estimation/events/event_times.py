@@ -45,8 +45,7 @@ def lateness(model: RecordModel, kind: str, jump: Vector3, flat: Floats) -> tupl
         return TURN, -jump
     here = unknowns_of(flat)
     body = here.body(model.testbed.body.mass)
-    weight = body.mass * model.testbed.gravity
-    torque: Vector3 = weight * np.cross(jump, to_matrix(here.q0).T @ DOWN_N)
+    torque: Vector3 = model.testbed.weight * np.cross(jump, to_matrix(here.q0).T @ DOWN_N)
     return RATE, -inverse_spd(body.inertia_P) @ torque
 
 

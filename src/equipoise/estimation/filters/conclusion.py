@@ -119,7 +119,7 @@ def left_out(state: State, rows: Rows, testbed: Testbed) -> tuple[Reason, ...]:
         float(np.sum(rows.observed**2)) / len(rows.observed),
         moments[-1] - moments[0],
     )
-    rule = square * float(separation) / (body.mass * testbed.gravity)
+    rule = square * float(separation) / testbed.weight
     return (Reason(Why.GYROSCOPIC_TORQUE_LEFT_OUT, (), {"com": by, "rule": rule}),)
 
 

@@ -17,8 +17,8 @@ from equipoise.estimation.filters.model import Model
 from equipoise.estimation.filters.predict import COM, INERTIA, Work
 from equipoise.estimation.tracker.predict_correct import invert3
 from equipoise.maths.compiled import part
-from equipoise.maths.turns import Triple, turn, turned
-from equipoise.model.arrays import Floats
+from equipoise.maths.turns import turn, turned
+from equipoise.model.arrays import Floats, Triple
 
 
 @part

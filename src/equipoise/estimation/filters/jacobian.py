@@ -22,12 +22,11 @@ gravity.
 from typing import NamedTuple
 
 from equipoise.dynamics.regressor import cross_columns, momentum_columns
-from equipoise.dynamics.rigid_body import Now, Six, cross, invert, times
+from equipoise.dynamics.rigid_body import Now, cross, invert, times
 from equipoise.dynamics.sensitivities import cross_twice, dot
 from equipoise.estimation.filters.model import Model
 from equipoise.maths.compiled import part
-from equipoise.maths.turns import Triple
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Six, Triple
 
 
 class Change(NamedTuple):

@@ -33,11 +33,11 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.dynamics.propagation import body_of, stacked
-from equipoise.dynamics.rigid_body import Body, Six
+from equipoise.dynamics.propagation import rigid_body, stacked
+from equipoise.dynamics.rigid_body import Body
 from equipoise.estimation.tracker.tracker import posterior_of
 from equipoise.maths.linalg import pack_symmetric, skew
-from equipoise.model.arrays import Floats, Matrix3, Square, Vector3, Vector6
+from equipoise.model.arrays import Floats, Matrix3, Six, Square, Vector3, Vector6
 from equipoise.model.testbed import Testbed
 
 FIRST_RATE = 0.1  # rad/s, chosen: one sd of the rate before the first row, as the tracker has it
@@ -94,10 +94,10 @@ def axes_of(kind: Kind, up: Vector3) -> Matrix3:
 
 def model_of(kind: Kind, testbed: Testbed, noise: float, walks: Walks) -> Model:
     """Return the model; ``noise`` is the variance of a row, rad^2 or (rad/s)^2."""
-    six, body = pack_symmetric(testbed.body.inertia_P), testbed.body
+    six = pack_symmetric(testbed.body.inertia_P)
     left_out = tuple(float(x) for x in six - inertia_in(testbed, kind))
     return Model(
-        body_of(body.mass, testbed.gravity, six, body.first_moment),
+        rigid_body(testbed.body, testbed.gravity),
         stacked(mass_maps(testbed.masses)), axes_of(kind, testbed.up), cast("Six", left_out),
         kind.attitude, kind.gyroscopic, kind.unscented, kind.estimated, noise, *walks,
     )  # fmt: skip

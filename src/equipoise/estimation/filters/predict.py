@@ -17,7 +17,6 @@ from equipoise.dynamics.regressor import WIDTH
 from equipoise.dynamics.rigid_body import (
     Body,
     Now,
-    Six,
     between,
     body_at,
     body_within,
@@ -29,8 +28,7 @@ from equipoise.dynamics.rigid_body import (
 from equipoise.estimation.filters.model import Model
 from equipoise.estimation.tracker.predict_correct import placed
 from equipoise.maths.compiled import part
-from equipoise.maths.turns import Triple
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Six, Triple
 
 COM, INERTIA = 7, 10  # where they stand in a state: q, H, com, J
 

@@ -21,8 +21,8 @@ from equipoise.estimation.filters.predict import (
     write_back,
 )
 from equipoise.maths.compiled import part
-from equipoise.maths.turns import Triple, turn, turned
-from equipoise.model.arrays import Floats
+from equipoise.maths.turns import turn, turned
+from equipoise.model.arrays import Floats, Triple
 
 NULL = 1e-14  # of a variance, chosen: what is left of it is rounding
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.dynamics.propagation import Motion, body_of, propagate
+from equipoise.dynamics.propagation import Motion, propagate, rigid_body
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import Timeline
 from equipoise.estimation.events.record_model import RecordModel
@@ -24,7 +24,6 @@ from equipoise.estimation.model_selection.reference_fit import FEWEST, too_few
 from equipoise.estimation.output_error.fit_estimate import EXPLAINED
 from equipoise.estimation.output_error.solution import Fitted, chi_square_share
 from equipoise.estimation.output_error.trajectory import Params
-from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Ints
 from equipoise.model.errors import InputError
 from equipoise.model.reasons.data_reasons import Caution
@@ -102,7 +101,5 @@ def halfway(fitted: Fitted) -> tuple[Timeline, Motion]:
     problem, point = fitted.problem, fitted.point
     line = halved(problem.line)
     line = line._replace(known=displaced(line.known, line.owners, point.error))
-    body = point.body(problem.mass)
-    inertia = pack_symmetric(body.inertia_P)
-    rigid = body_of(body.mass, problem.gravity, inertia, body.first_moment, point.torque)
+    rigid = rigid_body(point.body(problem.mass), problem.gravity, point.torque)
     return line, propagate(rigid, problem.maps, line, point.q0, point.w0)

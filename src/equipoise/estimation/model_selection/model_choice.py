@@ -110,8 +110,8 @@ def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
     """Return how large the coefficients of a group may well be, one sd."""
     if is_of_sensors(group):
         return sensor_sizes(group, model.testbed.attitude)
-    body = model.testbed.body
-    return term_sizes(group, body.mean_moment, body.mass * model.testbed.gravity)
+    testbed = model.testbed
+    return term_sizes(group, testbed.body.mean_moment, testbed.weight)
 
 
 def surplus(model: RecordModel, group: tuple[str, ...]) -> float:

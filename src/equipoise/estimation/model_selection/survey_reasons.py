@@ -62,7 +62,7 @@ def lean_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:
 def gravity_torque(model: RecordModel) -> float:
     """Return a typical torque of gravity in the record, N m: rms over the camera's rows."""
     observed, point = model.fitted.problem.observed, model.fitted.point
-    weight = model.testbed.body.mass * model.testbed.gravity
+    weight = model.testbed.weight
     if not len(observed.attitude):
         return weight * float(np.linalg.norm(point.com))
     w, x, y, z = observed.attitude.T

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.estimation.motion.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.output_error.kernels.segments import Cuts
 from equipoise.estimation.output_error.problem import Problem, posed
@@ -22,7 +22,6 @@ from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.maths.attitude import difference, turned_on
-from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Series1, Vector3
 from equipoise.model.estimate import ATTITUDE, RATE
 from equipoise.model.recording import Recording
@@ -50,9 +49,7 @@ def joints(times: Series1, attitude_sd: float, rate_sd: float) -> Joints:
 
 def missing(problem: Problem, point: Unknowns, motion: SampledMotion, cuts: Cuts) -> Floats:
     """Return the jumps from the end of each stretch to the measured beginning of the next."""
-    body = point.body(problem.mass)
-    inertia, moment = pack_symmetric(body.inertia_P), body.first_moment
-    rigid = body_of(body.mass, problem.gravity, inertia, moment, point.torque)
+    rigid = rigid_body(point.body(problem.mass), problem.gravity, point.torque)
     out = np.zeros((len(cuts.nodes) - 2, 6))
     q, w, line = point.q0, point.w0, problem.line
     for k in range(len(out)):

@@ -7,14 +7,13 @@ import numpy as np
 from equipoise.actuators.drive_errors import on_rails, rails_of
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import TURN_PER_STEP, timeline
 from equipoise.estimation.motion.sampled_motion import sampled_motion
 from equipoise.estimation.output_error.trajectory import fastest_rate
 from equipoise.maths.attitude import exponential
-from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Vector3
 from equipoise.model.estimate import ATTITUDE, RATE, Estimate
 from equipoise.model.mass_properties import MassProperties
@@ -51,8 +50,7 @@ def run(
     off = [found.get(name, 0.0) for name in errors.names]
     for j, (owner, error) in enumerate(errors.owner):
         line.known[:, KNOWN_D + owner] += off[error] * line.known[:, first + j]
-    rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
-                    torque)  # fmt: skip
+    rigid = rigid_body(body, testbed.gravity, torque)
     motion = propagate(rigid, mass_maps(rails), line, q0, w0)
     return PredictedMotion(rows.t, motion.q[line.attitude_node], motion.rate[line.attitude_node])
 

@@ -122,7 +122,7 @@ def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
     inertia = testbed.body.mean_moment
     weight[TURN] = 1.0  # a step of 1 rad: without a camera nothing else ends a turn in heading
     weight[JP], weight[R] = inertia**-2, (ANCHOR * testbed.com_sd) ** -2
-    size = term_sizes(layout.terms, inertia, testbed.body.mass * testbed.gravity)
+    size = term_sizes(layout.terms, inertia, testbed.weight)
     weight[layout.torques] = (torque_anchor * size) ** -2
     return weight
 
@@ -134,7 +134,7 @@ def quickest_swing(testbed: Testbed, aside: float = 0.0) -> float:
     """
     body = testbed.body
     lever = float(np.linalg.norm(body.com) + 2 * np.max(testbed.com_sd)) + aside
-    stiffness = body.mass * testbed.gravity * lever / float(np.linalg.eigvalsh(body.inertia_P)[0])
+    stiffness = testbed.weight * lever / float(np.linalg.eigvalsh(body.inertia_P)[0])
     return float(np.sqrt(stiffness))
 
 

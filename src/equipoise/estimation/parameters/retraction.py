@@ -18,14 +18,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.dynamics.regressor import Triple
-from equipoise.dynamics.rigid_body import Body, Six, times
+from equipoise.dynamics.rigid_body import Body, times
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.eigen import eigen
 from equipoise.maths.pseudo_inertia import FLOOR, exceeds, inertia_of, second_moments_of, six_of
 from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.maths.turns import turned
-from equipoise.model.arrays import Floats, Ints
+from equipoise.model.arrays import Floats, Ints, Six, Triple
 
 W, SIX, COM, TORQUE, SENSOR, ERROR = 4, 7, 13, 16, 32, 56  # where a point keeps what is behind q0
 J, R, BEHIND = 6, 12, 15  # first coordinate of J_P, of com, of what is behind it

@@ -99,7 +99,7 @@ def scale_and_sizes(posed: Posed, rows: Rows, answer: Answer) -> tuple[Floats, F
     com = [answer.values[k] for k, name in enumerate(rows.names) if name in COM]
     distance = max(float(np.linalg.norm(com)), DISTANCE)
     known = {**dict.fromkeys(INERTIA, inertia), **dict.fromkeys(COM, distance)}
-    weight = posed.testbed.gravity * body.mass
+    weight = posed.testbed.weight
     known |= dict(zip(TERMS, term_sizes(TERMS, inertia, weight), strict=True))
     size = np.array([known[name] for name in rows.names])
     stretched = np.where(np.isin(rows.names, BODY), answer.values / size, 0.0)

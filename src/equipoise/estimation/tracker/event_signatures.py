@@ -17,10 +17,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.dynamics.regressor import Triple
 from equipoise.estimation.tracker.predict_correct import SIZE, Work, ahead
 from equipoise.maths.compiled import part
-from equipoise.model.arrays import Floats, Ints
+from equipoise.model.arrays import Floats, Ints, Triple
 
 ONSETS = 12
 MANY = 2 * ONSETS  # hypotheses: jumps of the rate, then steps of r

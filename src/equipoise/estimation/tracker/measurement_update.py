@@ -5,7 +5,6 @@ doubtful that an innovation is not linear in what is unknown, attitude and rate 
 row and the one before instead; the estimate of the body stays.
 """
 
-from equipoise.dynamics.regressor import Triple
 from equipoise.dynamics.rigid_body import Now, rate_of
 from equipoise.estimation.tracker import event_signatures as onsets
 from equipoise.estimation.tracker.kernel_records import (
@@ -34,7 +33,7 @@ from equipoise.estimation.tracker.predict_correct import (
 )
 from equipoise.maths.compiled import part
 from equipoise.maths.turns import turn
-from equipoise.model.arrays import Floats, Ints
+from equipoise.model.arrays import Floats, Ints, Triple
 
 GATE = 30.7  # chi-square of 3 that one sound row in a million exceeds
 EARLY_GATE = 10 * GATE  # chosen: while the noise is not known; it may be three times as stated

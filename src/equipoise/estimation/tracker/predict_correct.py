@@ -8,13 +8,13 @@ H picks three rows of the error state (and the bias), so H P is a few rows of P.
 
 from typing import NamedTuple
 
-from equipoise.dynamics.regressor import Triple, momentum_columns
-from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, rate_of, times
+from equipoise.dynamics.regressor import momentum_columns
+from equipoise.dynamics.rigid_body import ROWS, Body, Now, rate_of, times
 from equipoise.dynamics.sensitivities import LANES
 from equipoise.estimation.tracker.linearisation_point import AT
 from equipoise.maths.compiled import part
 from equipoise.maths.turns import turned
-from equipoise.model.arrays import Floats, Ints
+from equipoise.model.arrays import Floats, Ints, Six, Triple
 
 SIZE = 18  # dth, dw, dr, dJ, db
 N = 15  # of which the propagator moves these, in one block

@@ -37,7 +37,7 @@ from scipy.special import chdtri
 
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics import sensitivities
-from equipoise.dynamics.propagation import body_of, stacked
+from equipoise.dynamics.propagation import rigid_body, stacked
 from equipoise.estimation.tracker.kernel_records import EVENTS, Model, Place, Written
 from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.estimation.tracker.measurements import rows_of
@@ -56,6 +56,7 @@ from equipoise.model.arrays import (
     Vector3,
 )
 from equipoise.model.estimate import INERTIA, Estimate
+from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -194,12 +195,12 @@ def contact_alarm(testbed: Testbed, recording: Recording) -> float:
 
 def model_of(recording: Recording, testbed: Testbed, params: Params, state: State) -> Model:
     """Return what does not change along the rows."""
-    inertia, mass = pack_symmetric(state.inertia_P), testbed.body.mass
+    body = MassProperties(testbed.body.mass, state.com, state.inertia_P)
     walk = params.com_walk if params.moves == "fed" else max(params.com_walk, UNTOLD)
     bias_walk = params.bias_walk if recording.rate is not None and len(recording.rate) else 0.0
     sd = [s.noise if s else 1.0 for s in (testbed.attitude, testbed.gyro)]
     return Model(
-        body_of(mass, testbed.gravity, inertia, mass * state.com, params.torque),
+        rigid_body(body, testbed.gravity, params.torque),
         stacked(mass_maps(testbed.masses)), filter_columns(), np.array(sd),
         np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3),
         contact_alarm(testbed, recording),

@@ -4,7 +4,7 @@
     ok   error:9   ALARM:1   $100=80.000   [MSG:...]   Grbl 1.1h ['$' for help]
 
 A position may be that of the machine (MPos) or of the work (WPos), which is less by an offset
-(WCO) that the board reports now and then.
+(WCO) that the board reports now and then. The words for its codes of errors and alarms are ours.
 """
 
 import re
@@ -13,6 +13,9 @@ from enum import Enum
 
 from equipoise.hardware.transport.finite_numbers import all_finite, finite
 
+WELCOME = re.compile(rb"Grbl \d+\.\d+\S* \[")
+SETTING = re.compile(rb"\$(\d+)=([-+0-9.eE]+)")
+CODE = re.compile(rb"(error|ALARM):(\d{1,4})")
 ERRORS = {
     1: "a G-code word lacks its letter",
     2: "a number in a command cannot be read",
@@ -64,18 +67,6 @@ ALARMS = {
     9: "homing did not find a limit switch",
     10: "homing with two motors did not find the second switch",
 }
-
-
-def sentence_of(alarm: bool, code: int) -> str:
-    """Return an alarm or an error in words."""
-    if alarm:
-        return f"{ALARMS.get(code, 'it stopped with an alarm')} (ALARM:{code})"
-    return f"{ERRORS.get(code, 'it refused a command')} (error:{code})"
-
-
-WELCOME = re.compile(rb"Grbl \d+\.\d+\S* \[")
-SETTING = re.compile(rb"\$(\d+)=([-+0-9.eE]+)")
-CODE = re.compile(rb"(error|ALARM):(\d{1,4})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,3 +140,10 @@ def _status(line: bytes) -> Status | None:
                 return None
             places[key] = place
     return Status(state, places.get("MPos"), places.get("WPos"), places.get("WCO"))
+
+
+def sentence_of(alarm: bool, code: int) -> str:
+    """Return an alarm or an error in words."""
+    if alarm:
+        return f"{ALARMS.get(code, 'it stopped with an alarm')} (ALARM:{code})"
+    return f"{ERRORS.get(code, 'it refused a command')} (error:{code})"

@@ -1,6 +1,6 @@
 """The scripts of requests for a TMCL module: at connection, and for finding its position.
 
-Targets are in the module's microsteps:
+Displacements of masses are in the module's microsteps:
 
     microsteps = (zero +- displacement) * steps per metre
 
@@ -19,6 +19,9 @@ from equipoise.hardware.boards.tmcl_words import Request
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
+
+MARK, BANK, VARIABLE = 0x45515550, 2, 255  # chosen: any number but 0; the last user variable
+OBSERVED = Request(w.GGP, VARIABLE, BANK)
 
 
 class Steps:
@@ -47,10 +50,6 @@ class Steps:
         end = self.steps(name, goal)
         most = int(2 * LEG * self._speed[name] * self.axes[name].steps_per_m)
         return max(at - most, min(at + most, end))
-
-
-MARK, BANK, VARIABLE = 0x45515550, 2, 255  # chosen: any number but 0; the last user variable
-OBSERVED = Request(w.GGP, VARIABLE, BANK)
 
 
 class Scripts:

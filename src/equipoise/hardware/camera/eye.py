@@ -5,12 +5,12 @@ fx_px, fy_px, cx_px, cy_px, width_px, height_px, k1, k2, p1, p2, k3    the lens
 up_x, up_y, up_z      which way is up, in the camera's axes: X to the right in the picture,
 Y down, Z along the sight; without them it points straight down
 
-The laboratory's axes follow from which way is up in the picture, in camera axes:
+From the camera's axes to the laboratory's, by which way is up in the picture:
 
     z = up,   x = the picture's right made level,   y = z x x
 
-Heading is of no matter to a balance; it is counted from the picture's right, by a camera that is
-rolled on its side so far that its right is up from the picture's top.
+all in camera axes. Heading is of no matter to a balance; it is counted from the picture's right. A
+camera that is rolled on its side so far that its right is up counts from its picture's top.
 """
 
 from collections.abc import Mapping
@@ -33,6 +33,9 @@ UP = ("up_x", "up_y", "up_z")
 NEEDED = (*BOARD, *LENS)
 MOST = 1e9  # chosen: of no lens or board is any number so large
 KEYS = ("dictionary", "first_id", "rms_px", *NEEDED, *BENT, *UP)
+DOWN = (0.0, 0.0, -1.0)  # up, of a camera that points straight down
+LENGTH = 0.01  # chosen: of a direction written to two digits
+STEEP = 0.9  # chosen: of the right's part along up, beyond which the picture's top is taken
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,11 +106,6 @@ def _whole(settings: Mapping[str, Setting], key: str, where: str, usual: int | N
     if value != int(value):
         raise InputError(f"{where}.{key}", f"{value:g}", "a whole number")
     return int(value)
-
-
-DOWN = (0.0, 0.0, -1.0)  # up, of a camera that points straight down
-LENGTH = 0.01  # chosen: of a direction written to two digits
-STEEP = 0.9  # chosen: of the right's part along up, beyond which the picture's top is taken
 
 
 def camera_to_laboratory(up: Vector3) -> Matrix3:

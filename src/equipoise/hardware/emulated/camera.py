@@ -30,7 +30,6 @@ class EmulatedCamera:
     def __init__(self, unit: SensorUnit) -> None:
         self._unit = unit
         self._eye = eye_of(unit.settings, f"hardware.sensor {unit.name}: settings")
-        self._measurement = Appearance()
         self._renderer: Renderer | None = None
         self._rest = b""
 
@@ -41,7 +40,7 @@ class EmulatedCamera:
             return b""
         if not requests[-1].startswith(b"GET "):
             return BAD_REQUEST
-        self._renderer = renderer_of(self._eye, self._measurement)
+        self._renderer = renderer_of(self._eye, Appearance())
         return HELLO
 
     def messages(self, rows: Recording) -> Sequence[bytes]:

@@ -9,6 +9,7 @@ import errno
 import os
 import socket
 from contextlib import suppress
+from functools import partial
 from typing import Protocol
 
 from equipoise.hardware.emulated.outbox import CHUNK, LOOPBACK, Outbox
@@ -77,8 +78,7 @@ class PtyCounterpart:
 
     def _flush(self) -> None:
         with suppress(BlockingIOError):
-            while self._outbox.waiting:
-                self._outbox.sent(os.write(self._master, self._outbox.waiting))
+            self._outbox.flush(partial(os.write, self._master))
 
 
 class TcpCounterpart:
@@ -129,8 +129,8 @@ class TcpCounterpart:
 
     def _flush(self) -> None:
         try:
-            while self._line is not None and self._outbox.waiting:
-                self._outbox.sent(self._line.send(self._outbox.waiting))
+            if self._line is not None:
+                self._outbox.flush(self._line.send)
         except BlockingIOError:
             pass
         except OSError:

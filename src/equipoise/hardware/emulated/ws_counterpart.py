@@ -112,8 +112,7 @@ class Listener:
         """Send what there is to send; a closed line is noticed when it is read."""
         self._outbox.add(b"".join(self._protocol.data_to_send()))
         with suppress(OSError):  # it would have to wait, or is closed
-            while self._outbox.waiting:
-                self._outbox.sent(self.line.send(self._outbox.waiting))
+            self._outbox.flush(self.line.send)
 
     def _taken(self, event: Any) -> bytes:
         """Return a message's text; answer a handshake."""

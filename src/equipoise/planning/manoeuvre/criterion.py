@@ -25,14 +25,10 @@ NAMES: dict[Quantity, tuple[str, ...]] = {"J": INERTIA, "r": COM, "both": BODY}
 OF_MOMENT, OF_COM = 0.01, 1e-6  # -, m, chosen: as laboratories require
 
 
-def sizes(body: MassProperties) -> Floats:
-    """Return the sizes of inertia and centre of mass in the order of ``unknowns.CORE``, SI."""
-    return np.append(OF_MOMENT * element_sizes(body.inertia_P), np.full(3, OF_COM))
-
-
 def size_of(body: MassProperties, names: tuple[str, ...]) -> Floats:
-    """Return the sizes of some of them."""
-    known = dict(zip(BODY, sizes(body), strict=True))
+    """Return the sizes of elements of inertia and centre of mass, SI."""
+    sizes = np.append(OF_MOMENT * element_sizes(body.inertia_P), np.full(3, OF_COM))
+    known = dict(zip(BODY, sizes, strict=True))
     return np.array([known[name] for name in names])
 
 

@@ -11,19 +11,19 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.maths import pseudo_inertia
-from equipoise.maths.attitude import exponential, multiply, tilt
-from equipoise.maths.linalg import inverse_where, pack_symmetric
+from equipoise.maths.attitude import tilt
+from equipoise.maths.linalg import inverse_where
 from equipoise.model.arrays import Square, Vector3
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.planning.manoeuvre.noiseless_record import imagined
 from equipoise.planning.manoeuvre.predicted_information import Known, informed, posed, true_point
-from equipoise.planning.manoeuvre.scenario import Scenario
+from equipoise.planning.manoeuvre.scenario import Scenario, let_go
 
 S = TypeVar("S", AttitudeSensor, Gyro)
 DENSE_CAMERA, DENSE_GYRO = 5.0, 10.0  # Hz, chosen: a swing of some 10 s is well sampled
@@ -82,26 +82,16 @@ def rehearsal(
 
 def started(tried: Rehearsal, scenario: Scenario) -> Unknowns:
     """Return the truth of one platform, let go nearly as planned."""
-    plan, point = tried.manoeuvre, true_body(tried.expected, scenario)
-    lean = plan.tilt_sd * (scenario.lean - (scenario.lean @ tried.up) * tried.up)
-    return replace(
-        point,
-        q0=multiply(point.q0, exponential(lean)),
-        w0=plan.rate + plan.rate_sd * scenario.push,
-    )
-
-
-def true_body(point: Unknowns, scenario: Scenario) -> Unknowns:
-    """Return a point with another body."""
-    six = pseudo_inertia.from_inertia(scenario.body.inertia_C)
-    return replace(point, six=six, com=scenario.body.com)
+    body, point = scenario.body, tried.expected
+    six = pseudo_inertia.from_inertia(body.inertia_C)
+    q0, w0 = let_go(point.q0, tried.manoeuvre, scenario, tried.up)
+    return replace(point, six=six, com=body.com, q0=q0, w0=w0)
 
 
 def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
     """Return the peaks of one platform."""
     problem = tried.problem
-    body = truth.body(problem.mass)
-    rigid = body_of(body.mass, problem.gravity, pack_symmetric(body.inertia_P), body.first_moment)
+    rigid = rigid_body(truth.body(problem.mass), problem.gravity)
     motion = propagate(rigid, problem.maps, problem.line, truth.q0, truth.w0)
     rate = float(np.linalg.norm(motion.rate, axis=1).max())
     return Peaks(float(tilt(motion.q, tried.up).max()), rate)

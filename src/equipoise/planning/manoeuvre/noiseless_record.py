@@ -15,11 +15,10 @@ import numpy as np
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.actuators.square_waves import inputs_along
 from equipoise.actuators.stored_momentum import stored_momentum
-from equipoise.dynamics.propagation import Motion, body_of, propagate
+from equipoise.dynamics.propagation import Motion, propagate, rigid_body
 from equipoise.dynamics.timeline import timeline
 from equipoise.estimation.output_error.problem import longest_step
 from equipoise.maths.attitude import leaning
-from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Series1
 from equipoise.model.devices import recorded_name
 from equipoise.model.manoeuvre import Manoeuvre
@@ -51,7 +50,7 @@ def mass_track(testbed: Testbed, manoeuvre: Manoeuvre) -> Samples | None:
         return None
     unused = np.random.default_rng(0)  # of where masses stop, which is not reported
     travel = actuator.left_at(masses, manoeuvre.standing, unused)
-    track = actuator.retracked(actuator.track_home(masses), travel, 0.0)
+    track = actuator.tracked(travel)
     for t, targets in manoeuvre.moves:
         goals = actuator.checked(travel, t, targets, masses)
         travel = actuator.sent(travel, t, goals, masses, (), unused)
@@ -102,7 +101,7 @@ def imagined(testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre) -> Im
         longest_step(testbed, fastest, len(t_q) + len(t_w)), reported.momentum,
     )  # fmt: skip
     maps = mass_maps(testbed.masses)
-    rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment)
+    rigid = rigid_body(body, testbed.gravity)
     q0 = leaning(testbed.up, manoeuvre.low_side, manoeuvre.tilt)
     motion = propagate(rigid, maps, line, q0, manoeuvre.rate)
     recording = replace(

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.maths.attitude import exponential, leaning, multiply, to_matrix
+from equipoise.maths.attitude import leaning, to_matrix
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.estimate import BODY
 from equipoise.model.manoeuvre import Manoeuvre
@@ -27,7 +27,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.planning.manoeuvre.limit_check import Peaks, for_search, peaks, rehearsal, started
 from equipoise.planning.manoeuvre.plan import Wish
 from equipoise.planning.manoeuvre.predicted_information import Predicted, predicted
-from equipoise.planning.manoeuvre.scenario import Scenario, scenarios
+from equipoise.planning.manoeuvre.scenario import Scenario, let_go, scenarios
 
 PLATFORMS = 240  # chosen: of 60 the rms changed by up to a third, by the few with the largest sd
 TRIED = 300  # chosen: if all keep the limits, then 99 % of all platforms do
@@ -80,8 +80,8 @@ def peaks_of(
 
 def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:
     """Return a manoeuvre as a hand that errs begins it."""
-    lean = manoeuvre.tilt_sd * (scenario.lean - (scenario.lean @ up) * up)
-    q = multiply(leaning(up, manoeuvre.low_side, manoeuvre.tilt), exponential(lean))
+    q0 = leaning(up, manoeuvre.low_side, manoeuvre.tilt)
+    q, rate = let_go(q0, manoeuvre, scenario, up)
     down = -to_matrix(q)[2]
     sinks = down - (down @ up) * up
     size = float(np.linalg.norm(sinks))
@@ -89,7 +89,7 @@ def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:
         manoeuvre,
         tilt=float(np.arctan2(size, -down @ up)),
         low_side=sinks / size if size > 0 else manoeuvre.low_side,
-        rate=manoeuvre.rate + manoeuvre.rate_sd * scenario.push,
+        rate=rate,
     )
 
 

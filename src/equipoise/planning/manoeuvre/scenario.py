@@ -11,8 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.estimation.parameters.fit_parameters import core_of
+from equipoise.maths.attitude import exponential, multiply
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
-from equipoise.model.arrays import Floats, Square, Vector3
+from equipoise.model.arrays import Floats, Quaternion, Square, Vector3
+from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.testbed import Testbed
 
@@ -34,6 +36,15 @@ class Scenario:
     body: MassProperties
     lean: Vector3  # -, about the body's axes
     push: Vector3  # -
+
+
+def let_go(
+    q0: Quaternion, manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3
+) -> tuple[Quaternion, Vector3]:
+    """Return attitude and rate (rad/s) with which a hand lets go that aims at ``q0``."""
+    lean = manoeuvre.tilt_sd * (scenario.lean - (scenario.lean @ up) * up)
+    rate = manoeuvre.rate + manoeuvre.rate_sd * scenario.push
+    return multiply(q0, exponential(lean)), rate
 
 
 def stated_prior(testbed: Testbed) -> Prior:

@@ -16,11 +16,11 @@ the first time by f = e + noise, as the prior is wide. Lines are the mean square
 the last measurement and the last move, and the effects of room, deck and bearing (``environment``).
 Platforms that the masses cannot bring to the target are left out; ``within`` is how many they can.
 
-Measurements are assumed to have the error that a fit of their record predicts, and no other.
-
 Platforms are drawn as evenly as chance would draw them: points of a scrambled Sobol sequence,
-turned into normal numbers, the same each time. A mean over them is nearer to the expected value
-than one over as many random numbers.
+turned into normal numbers. They are the same each time, and a mean over them is nearer to the
+expected value than one over as many random numbers.
+
+Measurements are assumed to have the error that a fit of their record predicts, and no other.
 """
 
 from dataclasses import dataclass, replace
@@ -38,38 +38,9 @@ from equipoise.planning.sizing.measurement_bound import MeasurementBound, first_
 from equipoise.planning.sizing.move_error import Left, Standing, at_home, move
 from equipoise.planning.sizing.reachable_set import Reach, contains, reach_of, tolerance
 
-EDGE = 1e-9  # chosen: normal numbers stay within six sd
-
-
-def even_normals(power: int, columns: int) -> Series:
-    """Return 2^power rows of standard normal numbers in so many independent columns."""
-    points = qmc.Sobol(columns, scramble=True, seed=0).random_base2(power)
-    return ndtri(np.clip(points, EDGE, 1 - EDGE))
-
-
-def stated_offsets(case: Case, normals: Series) -> Series3:
-    """Return where the centre of mass of platforms is, as stated, from the target (m)."""
-    return case.testbed.body.com - case.target + case.testbed.com_sd * normals
-
-
-def with_covariance(normals: Series, covariance: Matrix3) -> Series3:
-    """Return vectors of this covariance (m^2)."""
-    values, vectors = np.linalg.eigh(covariance)
-    return normals * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
-
-
-def within_reach(reach: Reach, offsets: Series3) -> Bools:
-    """Say of each offset (m) whether masses can undo all of it that lies along their span."""
-    return contains(reach, -offsets @ reach.span @ reach.span.T)
-
-
-def share_within(reach: Reach, offsets: Series3) -> float:
-    """Return which share of offsets (m) can be undone."""
-    return float(np.mean(contains(reach, -offsets)))
-
-
 MANY, SOME = 13, 9  # powers of 2, chosen: offsets to count those within reach; to move
 FEWEST = 32  # chosen: offsets within reach by which a move is judged
+EDGE = 1e-9  # chosen: normal numbers stay within six sd
 
 
 class Balanced(NamedTuple):
@@ -184,3 +155,30 @@ def target_line(case: Case) -> Line:
         moment,
         REQUESTED,
     )
+
+
+def even_normals(power: int, columns: int) -> Series:
+    """Return 2^power rows of standard normal numbers in so many independent columns."""
+    points = qmc.Sobol(columns, scramble=True, seed=0).random_base2(power)
+    return ndtri(np.clip(points, EDGE, 1 - EDGE))
+
+
+def stated_offsets(case: Case, normals: Series) -> Series3:
+    """Return where the centre of mass of platforms is, as stated, from the target (m)."""
+    return case.testbed.body.com - case.target + case.testbed.com_sd * normals
+
+
+def with_covariance(normals: Series, covariance: Matrix3) -> Series3:
+    """Return vectors of this covariance (m^2)."""
+    values, vectors = np.linalg.eigh(covariance)
+    return normals * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
+
+
+def within_reach(reach: Reach, offsets: Series3) -> Bools:
+    """Say of each offset (m) whether masses can undo all of it that lies along their span."""
+    return contains(reach, -offsets @ reach.span @ reach.span.T)
+
+
+def share_within(reach: Reach, offsets: Series3) -> float:
+    """Return which share of offsets (m) can be undone."""
+    return float(np.mean(contains(reach, -offsets)))

@@ -60,7 +60,7 @@ PLAIN = Surroundings()
 
 def surrounding_lines(testbed: Testbed, around: Surroundings, tilt: float) -> Iterator[Line]:
     """Yield the lines of what is stated, and of what always acts; ``tilt`` in rad."""
-    weight = testbed.body.mass * testbed.gravity
+    weight = testbed.weight
     warm = basis_of(around, "expansion", "length", "lopsided")
     drift = any_way(testbed, warmth(around), tilt)
     yield Line("warmth", "The warmth of the room", *drift, warm)
@@ -123,7 +123,7 @@ def sag_left(testbed: Testbed, around: Surroundings, tilt: float) -> float:
     """Return the residual torque (N m) of a deck's sag after the best trim."""
     sag: Matrix3 = sag_of(testbed, around) * np.outer(testbed.up, testbed.up)
     trim: Vector3 = trimmed_com(sag, testbed.up, tilt)
-    return testbed.body.mass * testbed.gravity * residual_torque(trim, sag, testbed.up, tilt)
+    return testbed.weight * residual_torque(trim, sag, testbed.up, tilt)
 
 
 def buoyancy(testbed: Testbed, around: Surroundings) -> float:

@@ -36,4 +36,4 @@ def expected_torque(testbed: Testbed, moment: Matrix3, tilt: float) -> float:
     values, vectors = np.linalg.eigh(moment)
     arms = [residual_torque(v, STIFF, testbed.up, tilt) for v in vectors.T]
     squares = np.maximum(values, 0.0) @ np.square(arms)
-    return testbed.body.mass * testbed.gravity * float(np.sqrt(squares))
+    return testbed.weight * float(np.sqrt(squares))

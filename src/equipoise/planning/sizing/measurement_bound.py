@@ -26,7 +26,6 @@ from equipoise.model.mass_properties import from_centre
 from equipoise.model.reasons.data_reasons import RecordCaution
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import GROUPS
 from equipoise.planning.manoeuvre.predicted_information import (
     Known,
     Predicted,
@@ -109,8 +108,7 @@ def sought(testbed: Testbed) -> Params:
 
     At small tilts a deck that sags is a stiff one with another centre of mass.
     """
-    terms = tuple(term for term in testbed.disturbances if term not in GROUPS["sag"])
-    return Params(terms, use_prior=True)
+    return Params(testbed.without("sag").disturbances, use_prior=True)
 
 
 def rows_of(reported: Predicted, names: tuple[str, ...]) -> Floats:

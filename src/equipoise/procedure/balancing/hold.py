@@ -123,8 +123,8 @@ def swing_amplitude(state: tracker.State, com: Vector3, testbed: Testbed) -> flo
     """
     R = to_matrix(state.q)
     across = state.rate - (state.rate @ R[2]) * R[2]
-    weight = testbed.body.mass * testbed.gravity * float(np.linalg.norm(com))
-    height = testbed.body.mass * testbed.gravity * float((R @ com)[2])
+    weight = testbed.weight * float(np.linalg.norm(com))
+    height = testbed.weight * float((R @ com)[2])
     energy = 0.5 * float(across @ state.inertia_P @ across) + height
     return float(np.arccos(np.clip(-energy / weight, -1.0, 1.0)))
 

@@ -34,7 +34,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS, among
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
-from equipoise.procedure.steps.joint_fit import as_if_stiff, learn, without
+from equipoise.procedure.steps.joint_fit import as_if_stiff, learn
 from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step, verdict_step
 from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
 from equipoise.procedure.steps.tilt_guard import guarded, tilted
@@ -209,9 +209,10 @@ def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
     if tilted(fresh, bench.testbed):
         bench.stop()
         return stop_step(bench)
-    knowledge = learn(None, fresh, without(bench.testbed, "drift"))
+    knowledge = learn(None, fresh, bench.testbed.without("drift"))
     judged = verdict(knowledge, None, began, options.target, options.tolerance)
-    return verdict_step(bench.time, judged, judged.reasons, knowledge.recording, knowledge.estimate)
+    return verdict_step(bench.time, judged, judged.reasons, knowledge.recording,
+                        knowledge.estimate)  # fmt: skip
 
 
 def stop_step(bench: Bench) -> Step:

@@ -73,11 +73,6 @@ class Assessment:
     judged: tuple[Judged, ...]
 
     @property
-    def weight(self) -> float:
-        """Return m g, N."""
-        return self.testbed.body.mass * self.testbed.gravity
-
-    @property
     def com(self) -> Vector3:
         """Return the centre of mass as the masses stand, m."""
         return self.pull.mean[:3]
@@ -132,7 +127,7 @@ def assessment_of(
     """Return the assessment of a platform whose parameters and covariance are known."""
     estimate, spread = model
     pull = pull_of(*spread)
-    weight, off = testbed.body.mass * testbed.gravity, pull.mean[:3] - options.target
+    weight, off = testbed.weight, pull.mean[:3] - options.target
     torque = torque_in_range(pull, weight, testbed.up, options.tilt)
     offset = bounded_length(off, pull.covariance[:3, :3], np.eye(3), pull.unscaled[:3, :3])
     return Assessment(

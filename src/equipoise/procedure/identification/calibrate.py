@@ -1,7 +1,7 @@
-"""Calibrate drives and sensors from a recording of commanded moves; which moves to command.
+"""Calibrate: from a recording of commanded moves to the parameters of drives and sensors.
 
-Each mass in turn goes half way, all the way, home, all the way to the other side, half way back,
-home, and stands for half a swing after each:
+Moves that calibrate the masses: each mass in turn goes half way, all the way, home, all the way to
+the other side, half way back, home, and stands for half a swing after each:
 
     d / d_max = 1/2, 1, 0, -1, -1/2, 0
 
@@ -40,6 +40,12 @@ ROUND = 5.0  # s, chosen: times a person can follow
 Moves = list[tuple[float, dict[str, float]]]
 
 
+def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions) -> Estimate:
+    """Return the calibration by the sound rows of a recording."""
+    recording, testbed = sound(recording, testbed)
+    return calibration.calibrate(recording, testbed, options)
+
+
 def calibration_moves(testbed: Testbed, names: tuple[str, ...] = ()) -> tuple[Moves, float]:
     """Return times (s) and targets (m), and the time to record; all masses unless named.
 
@@ -63,7 +69,7 @@ def stand(testbed: Testbed) -> float:
     if depth <= 0:
         where = f"{testbed.source or testbed.name}: platform.com_um"
         raise InputError(where, "a centre of mass that is not below P", "one that hangs")
-    stiffness = body.mass * testbed.gravity * depth
+    stiffness = testbed.weight * depth
     half = math.pi * math.sqrt(float(np.trace(body.inertia_P)) / 3 / stiffness)
     return ROUND * math.ceil(half / ROUND)
 
@@ -91,9 +97,3 @@ def hangs(shift: Vector3, testbed: Testbed) -> bool:
     aside = float(np.linalg.norm(com + depth * up))
     leans = aside > math.tan(LEAN * min(testbed.tilt_limit, TURNS_OVER)) * depth
     return HEIGHT * before <= depth <= DEPTH * before and not leans
-
-
-def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions) -> Estimate:
-    """Return the calibration by the sound rows of a recording."""
-    recording, testbed = sound(recording, testbed)
-    return calibration.calibrate(recording, testbed, options)

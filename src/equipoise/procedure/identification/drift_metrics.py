@@ -21,7 +21,7 @@ from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.assess import UNKNOWN_COM
-from equipoise.procedure.steps.joint_fit import as_if_stiff, without
+from equipoise.procedure.steps.joint_fit import as_if_stiff
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +40,7 @@ def metrics_over_hours(
 ) -> OverHours:
     """Return metrics of parts of ``seconds`` each; the inertia counts as known, or as a prior."""
     recording = arranged(recording, testbed.mass_names)
-    bed = replace(without(as_if_stiff(testbed), "drift"), com_sd=np.full(3, UNKNOWN_COM))
+    bed = replace(as_if_stiff(testbed).without("drift"), com_sd=np.full(3, UNKNOWN_COM))
     held = INERTIA if inertia_known else ()
     params = trajectory.Params(bed.disturbances, hold=held, use_prior=True)
     start, end = recording.span

@@ -13,7 +13,6 @@ from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import GROUPS
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,13 +62,7 @@ def as_if_stiff(testbed: Testbed) -> Testbed:
     At small tilts its effect is that of another centre of mass: that of a stiff platform which
     behaves alike.
     """
-    return without(testbed, "sag")
-
-
-def without(testbed: Testbed, group: str) -> Testbed:
-    """Return the testbed without a group of torques among what is estimated."""
-    terms = tuple(term for term in testbed.disturbances if term not in GROUPS[group])
-    return replace(testbed, disturbances=terms)
+    return testbed.without("sag")
 
 
 def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowledge:

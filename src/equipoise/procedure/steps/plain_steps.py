@@ -1,6 +1,4 @@
-"""Steps that procedures report alike: a record that was made, an estimate from one, a verdict."""
-
-from collections.abc import Sequence
+"""Steps that procedures report alike: a record that was made, an estimate from one."""
 
 from equipoise.model.estimate import Estimate
 from equipoise.model.reasons.reason import Reason, one_reason
@@ -18,19 +16,19 @@ def measurement_step(
     return Step("measurement", time, one_reason(code, duration=end - start), recording=recording)
 
 
+def verdict_step(
+    time: float,
+    verdict: Verdict,
+    reasons: tuple[Reason, ...],
+    recording: Recording,
+    estimate: Estimate | None = None,
+) -> Step:
+    """Return the verification, or the stop where the verdict is another."""
+    kind = "verify" if verdict.passed else "stop"
+    return Step(kind, time, reasons, recording, estimate, verdict=verdict)
+
+
 def estimate_step(time: float, estimate: Estimate) -> Step:
     """Return the step of an estimate at a time, s."""
     reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
     return Step("estimate", time, reasons, estimate=estimate)
-
-
-def verdict_step(
-    time: float,
-    verdict: Verdict,
-    reasons: Sequence[Reason],
-    recording: Recording | None,
-    estimate: Estimate | None = None,
-) -> Step:
-    """Return the last step of a balancing: its verification, or the stop of one that failed."""
-    kind = "verify" if verdict.passed else "stop"
-    return Step(kind, time, tuple(reasons), recording, estimate, verdict=verdict)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.propagation import body_of, propagate, rigid_body
 from equipoise.dynamics.timeline import timeline
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric
@@ -32,9 +32,7 @@ def state_now(knowledge: Knowledge, testbed: Testbed) -> tuple[Quaternion, Vecto
     """Return attitude and rate at the end of the record, from the fit."""
     fitted = knowledge.fitted
     point, line = fitted.point, fitted.problem.line
-    body = point.body(testbed.body.mass)
-    rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
-                    point.torque)  # fmt: skip
+    rigid = rigid_body(point.body(testbed.body.mass), testbed.gravity, point.torque)
     motion = propagate(rigid, mass_maps(testbed.masses), line, point.q0, point.w0)
     return motion.q[-1], motion.rate[-1]
 

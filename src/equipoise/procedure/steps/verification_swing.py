@@ -65,7 +65,7 @@ def push(testbed: Testbed, eyes: Eyes, here: Floats) -> Floats:
     gain = mass_maps([masses[i] for i in chosen]).first_moment / testbed.body.mass
     way: Floats = np.linalg.pinv(gain.T) @ direction(testbed, eyes)  # m a metre of shift
     speed = slowest(testbed) / float(np.abs(way).max())  # m/s of the centre of mass
-    weight = testbed.body.mass * testbed.gravity
+    weight = testbed.weight
     moment = float(np.trace(testbed.body.inertia_P)) / 3
     reach = float(np.sqrt(moment * WANTED * speed / weight))
     goal = here.copy()

@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from equipoise.app.bench.held_platform import CAUGHT
 from equipoise.app.console.compile_notice import compiler_notices
 from equipoise.app.console.terminal import COMPILING
 from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
@@ -33,7 +34,6 @@ from equipoise.model.step import Step
 from equipoise.model.verdict import VerdictOutcome
 
 SLICE = 0.1  # s of the bench, chosen: as often as a person can follow numbers
-CAUGHT = 1.1  # of the tilt limit, chosen: where somebody catches a simulated platform
 REMEMBERED = 1200.0  # s, chosen: what an identification takes in at most
 BY_HAND = f"stopped by hand: {HALTED}"
 

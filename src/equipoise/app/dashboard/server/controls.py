@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 from nicegui import ui
 
+from equipoise.app.arguments.checks import Triple
 from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.data_folder import recordings
 from equipoise.app.dashboard.protocol.series import AXES
@@ -15,7 +16,6 @@ from equipoise.model.units import UM, in_si
 TARGET_UM, TOLERANCE_UM = (0.0, 0.0, -100.0), (2.0, 2.0, 3.0)  # as ``equipoise balance`` has them
 SPEEDS = {0.5: "half", 1.0: "real time", 2.0: "2 x", 5.0: "5 x", 20.0: "20 x", 0.0: "fastest"}
 TABS = ("Balance", "Masses", "Data", "Bench")
-Triple = tuple[float, float, float]
 
 
 class Controls:

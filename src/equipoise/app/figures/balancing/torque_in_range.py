@@ -22,7 +22,8 @@ def draw(done: Assessment) -> Figure:
     figure = Figure(figsize=(WIDE, 3.0), layout="constrained")
     axes = figure.subplots()
     tilts = np.linspace(0.02, max(done.torque.tilt, done.testbed.tilt_limit), POINTS)
-    found = [torque_in_range(done.pull, done.weight, done.testbed.up, float(a)) for a in tilts]
+    bed = done.testbed
+    found = [torque_in_range(done.pull, bed.weight, bed.up, float(a)) for a in tilts]
     rms = np.array([each.rms for each in found]) / UN_M
     x = tilts / DEG
     axes.fill_between(x, rms[:, 1], rms[:, 2], color=BLUE, alpha=0.2, linewidth=0)

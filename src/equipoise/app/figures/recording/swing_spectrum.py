@@ -24,7 +24,8 @@ def draw(done: Assessment) -> Figure:
     axes = figure.subplots()
     size = float(np.linalg.norm(done.com))
     down = done.com / max(size, 1e-12)
-    predicted = swing_rates(done.weight * size, done.testbed.body.inertia_P, down) / (2 * np.pi)
+    bed = done.testbed
+    predicted = swing_rates(bed.weight * size, bed.body.inertia_P, down) / (2 * np.pi)
     for column, colour, name in zip(observed.amplitude.T, (BLUE, ORANGE), "xy", strict=True):
         axes.plot(observed.frequency, column / DEG, color=colour, label=f"vertical along {name}")
     for k, hanging in enumerate(done.metrics.hanging):

@@ -32,25 +32,16 @@ from equipoise.dynamics.rigid_body import (
     ROWS,
     Body,
     Now,
-    Six,
     body_at,
     body_within,
     drifts,
     rate_of,
     times,
 )
-from equipoise.dynamics.sensitivities import (
-    BLOCK,
-    LANES,
-    Inputs,
-    Nine,
-    Work,
-    dot,
-    room_for,
-)
+from equipoise.dynamics.sensitivities import BLOCK, LANES, Inputs, Work, dot, room_for
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.turns import Triple, to_body, turn
-from equipoise.model.arrays import Floats, Ints
+from equipoise.maths.turns import to_body, turn
+from equipoise.model.arrays import Floats, Ints, Nine, Six, Triple
 from equipoise.sensors.camera import DELAY, column, less_cross, said, seeing
 from equipoise.sensors.gyro import entry, gyro_matrix
 
