@@ -17,6 +17,7 @@ from equipoise.model.devices import (
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
 from tests.support.builders import platform
+from tests.support.gyro_pyramid import with_light_gimbals
 
 X, Y, Z = np.eye(3)
 TESTBED = replace(
@@ -43,11 +44,6 @@ def recording(**changes):
     tilted = np.tile(exponential(np.radians([90.0, 0.0, 0.0])), (5, 1))
     plain = Recording(attitude=Samples(T, tilted), device_names=NAMES, devices=Samples(T, values))
     return replace(plain, **changes)
-
-
-def with_light_gimbals(testbed):
-    light = tuple(replace(cmg, gimbal_inertia=0.0) for cmg in testbed.cmgs)
-    return replace(testbed, cmgs=light)
 
 
 def test_momentum_by_hand():

@@ -5,9 +5,12 @@ h_1 lies along +y at angle zero, each further gyro a quarter turn about +z on:
     g_1 = (sin b, 0, cos b),  s0_1 = (0, 1, 0)
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from equipoise.model.devices import ControlMomentGyro
+from equipoise.model.testbed import Testbed
 
 
 def pyramid(skew: float, momentum: float, max_rate: float) -> tuple[ControlMomentGyro, ...]:
@@ -20,3 +23,9 @@ def pyramid(skew: float, momentum: float, max_rate: float) -> tuple[ControlMomen
         )
         for i, (x, y) in enumerate(turned)
     )
+
+
+def with_light_gimbals(testbed: Testbed) -> Testbed:
+    """Return a testbed whose gimbals store no momentum of their own."""
+    light = tuple(replace(cmg, gimbal_inertia=0.0) for cmg in testbed.cmgs)
+    return replace(testbed, cmgs=light)

@@ -46,6 +46,11 @@ def test_coarse_and_fine_leaves_it_hanging_ten_micrometres_low(seed):
     assert greatest_tilt(course) < 30
 
 
+def test_coarse_and_fine_needs_masses():
+    with pytest.raises(InputError, match="sliding masses"):
+        coarse_fine.LAW.begin(replace(hand_balanced(), masses=()), LEVEL)
+
+
 def test_a_target_that_hangs_lower_is_kept():
     """Its height to 4 %: the shift from a first, short measurement determines the scale to that."""
     target = np.array([1e-6, 0, -40e-6])

@@ -32,6 +32,7 @@ from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.settling import UNREPORTED, Stand, standing
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
+from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.law_card import LawCard
 from equipoise.model.reasons.law_reasons import LawReason
@@ -75,7 +76,9 @@ class State:
 
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
-    """Return the beginning."""
+    """Return the beginning; InputError for a testbed without masses."""
+    if not testbed.masses:
+        raise InputError("coarse_fine", "a testbed without them", "sliding masses")
     up, hang = testbed.up, swings.hanging_shift(testbed, 2 * COARSE)[1]
     low = min(float(target @ up), -SAFE)
     safe = target + (low - float(target @ up)) * up

@@ -30,7 +30,7 @@ from equipoise.model.estimate import COM
 from equipoise.model.estimate import RATE as RATES
 
 
-class Kind(NamedTuple):
+class EventKind(NamedTuple):
     """What jumps in an event of one kind."""
 
     coordinates: slice
@@ -38,7 +38,7 @@ class Kind(NamedTuple):
     sd: float  # rad/s, m, chosen: any
 
 
-KINDS = {"impulse": Kind(RATE, RATES, 1.0), "com_step": Kind(R, COM, 1e-3)}
+KINDS = {"impulse": EventKind(RATE, RATES, 1.0), "com_step": EventKind(R, COM, 1e-3)}
 FALSE_ALARM = 3600.0  # s between false alarms, at least
 INFORMATIVE = 1e-6  # chosen: a smaller share of the information behind a cut is rounding
 

@@ -70,7 +70,7 @@ def stand(testbed: Testbed) -> float:
         where = f"{testbed.source or testbed.name}: platform.com_um"
         raise InputError(where, "a centre of mass that is not below P", "one that hangs")
     stiffness = testbed.weight * depth
-    half = math.pi * math.sqrt(float(np.trace(body.inertia_P)) / 3 / stiffness)
+    half = math.pi * math.sqrt(body.mean_moment / stiffness)
     return ROUND * math.ceil(half / ROUND)
 
 

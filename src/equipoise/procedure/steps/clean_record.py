@@ -23,7 +23,7 @@ def kept(channel: Samples, mask: Bools) -> Samples:
     """Return a channel without the rows of a mask, unless these are too many."""
     if mask.mean() > MOST:
         return channel
-    return Samples(channel.t[~mask], channel.values[~mask])
+    return channel.where(~mask)
 
 
 def sound(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:

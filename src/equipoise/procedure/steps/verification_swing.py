@@ -66,7 +66,7 @@ def push(testbed: Testbed, eyes: Eyes, here: Floats) -> Floats:
     way: Floats = np.linalg.pinv(gain.T) @ direction(testbed, eyes)  # m a metre of shift
     speed = slowest(testbed) / float(np.abs(way).max())  # m/s of the centre of mass
     weight = testbed.weight
-    moment = float(np.trace(testbed.body.inertia_P)) / 3
+    moment = testbed.body.mean_moment
     reach = float(np.sqrt(moment * WANTED * speed / weight))
     goal = here.copy()
     goal[chosen] = within([masses[i] for i in chosen], goal[chosen], reach * way)
