@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from equipoise.app.bench.emulation import ahead_of
 from equipoise.hardware.boards.registry import BOARDS
-from equipoise.hardware.emulated.registry import BOARDS as REMOTE_SIDES
+from equipoise.hardware.emulated.registry import emulated_board
 from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.io.testbed.presets import read_preset
 
@@ -27,7 +27,7 @@ class Wire:
     def __init__(self, kind, board=None, turn=TURN):
         self.board = board_of(kind) if board is None else board
         self.driver = BOARDS[kind](self.board, BED.masses)
-        self.remote = REMOTE_SIDES[kind](self.board, BED.masses)
+        self.remote = emulated_board(self.board, BED.masses)
         self.t, self.turn, self.sent, self.legs = 0.0, turn, b"", []
         self.cut = False  # what the board says does not arrive
         self.reported = []  # s, positions, which have to go: every state of another time
@@ -58,9 +58,9 @@ class Wire:
             self.reported.append((state.reported, dict(state.position), wants))
 
     def at_home(self):
-        self.run(0.5)
+        assert self.run(5.0, until="ready").phase == "ready"
         self.driver.home(self.t)
-        assert self.run(20.0, until="ready").sure
+        assert self.run(60.0, until="ready").sure
         self.run(0.2)
         return self
 

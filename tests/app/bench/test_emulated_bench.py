@@ -182,7 +182,7 @@ def spoil(station, how):
         (lambda lab: spoil(lab.board, half), "board masses: "),
         (lambda lab: lab.board.device.press_reset, "position is lost"),
         (lambda lab: lab.board.device.hit_limit, "a limit switch was hit"),
-        (lambda lab: lambda: lab.board.device.switch(False), "unplugged, or without power"),
+        (lambda lab: lambda: lab.board.device.switch(False), "its state (?) was asked"),
         (lambda lab: lab.board.wire.unplug, "its port is gone"),
     ],
 )

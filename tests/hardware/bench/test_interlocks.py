@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from equipoise.hardware.bench.interlocks import Observed, silence, tripped, turning
-from equipoise.hardware.transport.driver_protocol import BoardState
+from equipoise.hardware.transport.driver_protocol import BoardState, Phase
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.hardware import SafetyLimits
+from equipoise.model.reasons.board_faults import BoardFault
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.units import DEG
 
 BED = read_preset("nanosat")  # tilt limit 40 deg; masses of 8 mm/s on +-15 mm
@@ -26,8 +28,9 @@ def rates(*deg_s):
     return [(0.1 * k, np.array([0.0, r * DEG, 0.0])) for k, r in enumerate(deg_s)]
 
 
-def board(phase="ready", at=0.0, goal=0.0, sure=True, sentence=""):
-    return BoardState(phase, sentence, {"x": at}, {"x": goal}, 10.0, sure)
+def board(phase="ready", at=0.0, goal=0.0, sure=True):
+    fault = Reason(BoardFault.DISAGREES, ("hit",)) if phase == "fault" else None
+    return BoardState(Phase(phase), fault, {"x": at}, {"x": goal}, 10.0, sure)
 
 
 CALM = Observed(10.0, attitudes(1, 2, 3), rates(1, 1, 1), {"imu": 0.1}, {"masses": board()})
@@ -100,6 +103,6 @@ def test_a_board_that_is_not_sure_of_its_position_is_not_judged_by_it():
 
 
 def test_a_fault_is_reported_in_the_boards_words():
-    state = board("fault", sentence="a limit switch was hit", sure=False)
+    state = board("fault", sure=False)
     trip = tripped(replace(CALM, boards={"masses": state}), BED, LIMITS)
-    assert trip.sentence == "board masses: a limit switch was hit"
+    assert trip.sentence == "board masses: hit; mend one of the two"

@@ -4,7 +4,15 @@ from dataclasses import replace
 
 import pytest
 
-from equipoise.hardware.boards.grbl_report import Code, Setting, Status, Word, parsed
+from equipoise.hardware.boards.grbl_report import (
+    Code,
+    Greeting,
+    MachineState,
+    Setting,
+    Status,
+    Word,
+    parsed,
+)
 from equipoise.hardware.boards.grbl_settings import disagreement
 from equipoise.model.units import MM
 from tests.support.board_wire import BED, Wire, board_of
@@ -15,16 +23,16 @@ BOARD = board_of("grbl")
 def test_the_documented_lines_are_understood():
     """The wiki's examples of status, settings, errors, alarms and the welcome."""
     assert parsed(b"<Idle|MPos:0.000,0.000,0.000|FS:0.0,0>") == Status(
-        "Idle", (0.0, 0.0, 0.0), None, None
+        MachineState.IDLE, machine=(0.0, 0.0, 0.0), feed=0.0
     )
     assert parsed(b"<Hold:1|WPos:-5.529,0.560,7.000|WCO:1.000,0.000,-2.000>") == Status(
-        "Hold", None, (-5.529, 0.56, 7.0), (1.0, 0.0, -2.0)
+        MachineState.HOLD, work=(-5.529, 0.56, 7.0), offset=(1.0, 0.0, -2.0), detail=1
     )
     assert parsed(b"ok") is Word.OK
     assert parsed(b"error:9") == Code(False, 9)
     assert parsed(b"ALARM:1") == Code(True, 1)
     assert parsed(b"$110=500.000 (x max rate, mm/min)") == Setting(110, 500.0)
-    assert parsed(b"Grbl 1.1h ['$' for help]") is Word.WELCOME
+    assert parsed(b"Grbl 1.1h ['$' for help]") == Greeting("Grbl 1.1h ['$' for help]", old=False)
     for broken in (b"<Idle|MPos:0.0,nan,0.0>", b"<Idle|MPos", b"rror:9", b"$1x=3", b"\xff\xfe"):
         assert parsed(broken) is None
 
@@ -80,8 +88,8 @@ def test_settings_that_differ_from_the_testbed_are_named(key, value, said):
 
 def test_a_board_that_is_set_otherwise_is_a_fault():
     wire = Wire("grbl")
-    wire.remote._settings[100] = 80.0
-    state = wire.run(0.5)
+    wire.remote.board.settings[100] = 80.0
+    state = wire.run(2.0)
     assert state.phase == "fault"
     assert "$100=80 steps per mm" in state.sentence
 

@@ -6,7 +6,7 @@ import pytest
 from equipoise.actuators.stops import stops_of
 from equipoise.hardware.links.mass_interpolation import Answer, on_the_way, rows_to
 from equipoise.hardware.links.row_buffer import RowBuffer
-from equipoise.hardware.transport.driver_protocol import BoardState
+from equipoise.hardware.transport.driver_protocol import BoardState, Phase
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.hardware import Axis
 
@@ -52,8 +52,8 @@ def test_which_masses_have_still_to_go():
     """A step is 1.25 um and the last digit 1 um: 2 um short is there, 3 um short is not."""
     axes = [Axis("x", "X", 800e3, 0.0), Axis("y", "Y", 800e3, 0.0)]
     where, goal = {"x": 1e-3, "y": 1e-3}, {"x": 1.002e-3, "y": 1.003e-3}
-    assert on_the_way(BoardState("moving", "", where, goal), axes) == {"x": False, "y": True}
-    assert on_the_way(BoardState("ready", "", where, goal), axes) == {"x": False, "y": False}
+    assert on_the_way(BoardState(Phase.MOVING, None, where, goal), axes) == {"x": False, "y": True}
+    assert on_the_way(BoardState(Phase.READY, None, where, goal), axes) == {"x": False, "y": False}
 
 
 def truth(t):

@@ -13,7 +13,7 @@ from typing import Generic, TypeVar
 from equipoise.app.bench.held_platform import HeldPlatform, later
 from equipoise.hardware.emulated.counterpart import Counterpart, counterpart
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor, Leg
-from equipoise.hardware.emulated.registry import BOARDS, SENSORS
+from equipoise.hardware.emulated.registry import SENSORS, emulated_board
 from equipoise.hardware.transport.driver_protocol import driver_named
 from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Quaternion
@@ -153,7 +153,7 @@ def emulate(testbed: Testbed, seed: int) -> EmulatedBench:
     hardware = hardware_of(testbed)
     boards = [
         Station(
-            driver_named(BOARDS, board.driver, "board")(board, testbed.masses),
+            emulated_board(board, testbed.masses),
             counterpart(board.port),
         )
         for board in hardware.boards

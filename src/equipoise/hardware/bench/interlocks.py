@@ -20,7 +20,7 @@ from statistics import median
 
 import numpy as np
 
-from equipoise.hardware.transport.driver_protocol import BoardState
+from equipoise.hardware.transport.driver_protocol import BoardState, Phase
 from equipoise.maths.attitude import conjugate, multiply, tilt
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SafetyLimits
@@ -55,7 +55,7 @@ class Observed:
     @property
     def moving(self) -> bool:
         """Say whether any mass may be on its way."""
-        return any(state.phase in ("moving", "homing") for state in self.boards.values())
+        return any(state.phase in (Phase.MOVING, Phase.HOMING) for state in self.boards.values())
 
 
 def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reason | None:
@@ -89,7 +89,7 @@ def turning(observed: Observed) -> float:
 
 def _fault(observed: Observed) -> Reason | None:
     for name, state in observed.boards.items():
-        if state.phase == "fault":
+        if state.phase is Phase.FAULT:
             return Reason(Interlock.FAULT, (name, state.sentence))
     return None
 
@@ -113,7 +113,7 @@ def _turning(observed: Observed, limits: SafetyLimits) -> Reason | None:
 
 def _masses(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reason | None:
     for state in observed.boards.values():
-        if not state.sure or state.phase == "homing":
+        if not state.sure or state.phase is Phase.HOMING:
             continue
         for name, at in state.position.items():
             mass = testbed.mass_named(name)
@@ -149,6 +149,6 @@ def _elsewhere(
     mass: SlidingMass, at: float, state: BoardState, limits: SafetyLimits
 ) -> Reason | None:
     goal = state.goal.get(mass.name)
-    if state.phase != "ready" or goal is None or abs(at - goal) <= limits.mismatch:
+    if state.phase is not Phase.READY or goal is None or abs(at - goal) <= limits.mismatch:
         return None
     return Reason(Interlock.MISMATCH, (mass.name,), {"at": at, "goal": goal})

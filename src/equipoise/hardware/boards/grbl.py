@@ -1,52 +1,75 @@
-"""Grbl 1.1, the usual firmware of stepper boards; G-code over a serial line or TCP.
+"""Grbl 1.1 and its kin, the usual firmware of stepper boards; G-code over a serial line or TCP.
 
 Masses move by jogs, $J=G53 G21 G90 X.. F.., in machine coordinates: a jog beyond the travel is
-refused and locks nothing, and what is queued of it is thrown away by a hold, so that nothing goes
-on by itself afterwards. One leg is sent when less than a leg is left of what was sent before.
+refused and locks nothing, and a cancel throws away what is queued. One leg is sent when less than
+a leg is left of what was sent before.
 
     displacement = position - zero, or the negative of it where the axis is reversed
 
-A board that has just been opened is reset: what it did before is over, and it must home. Masses
-without switches are put at home by a person, whose word is ``home``. Source: Grbl 1.1 wiki,
-"Interface", "Jogging", "Configuration".
+A jog that arrives while the one before ends may turn into state Run, in which jogs are refused
+(error:8): the next leg then waits for Idle. How a halt ends is in ``grbl_halt``.
+
+A board that has just been opened is reset: what it did before is over, and it must home. A reset
+while it stands keeps its position. Masses without switches are put at home by a person, whose
+word is ``home``. Source: Grbl 1.1 wiki, "Interface", "Jogging", "Configuration".
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from equipoise.hardware.boards.axis_letters import check_letters
+from equipoise.hardware.boards.grbl_codes import IDLE_ERROR, alarm_text, error_text
+from equipoise.hardware.boards.grbl_halt import Halting, Wish
+from equipoise.hardware.boards.grbl_lines import (
+    displacements,
+    machine_position,
+    step_command,
+)
 from equipoise.hardware.boards.grbl_report import (
     Code,
+    Greeting,
+    MachineState,
     Report,
     Setting,
     Status,
     Word,
-    parsed,
-    sentence_of,
 )
-from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
-from equipoise.hardware.boards.legs import next_leg, time_left
+from equipoise.hardware.boards.grbl_route import Route
+from equipoise.hardware.boards.grbl_settings import (
+    LETTERS,
+    disagreement,
+    late_to_stop,
+    longest_homing,
+)
+from equipoise.hardware.boards.grbl_talk import CANCEL, HOLD, RESUME, GrblTalk, Step
+from equipoise.hardware.boards.grbl_watch import too_late
 from equipoise.hardware.transport.driver_protocol import (
-    LEG,
     POLL,
     POLL_MOVING,
-    SILENCE,
     BoardDriver,
     BoardState,
     Phase,
 )
-from equipoise.hardware.transport.line_splitter import Lines
-from equipoise.model.hardware import MotorBoard
-from equipoise.model.reading import Counts
+from equipoise.model.hardware import Axis, MotorBoard
+from equipoise.model.reasons.board_faults import BoardFault
+from equipoise.model.reasons.reason import Number, Reason
 from equipoise.model.testbed import SlidingMass
-from equipoise.model.units import MINUTE, MM, in_si
 
-RESET, HOLD, RESUME, CANCEL = b"\x18", b"!", b"~", b"\x85"
-BEGIN = 4.0  # s, chosen: an Arduino's loader takes two of them after the port is opened
-TRY = 1.5  # s, chosen: between resets while it has not begun
-LONGEST_HOMING = 60.0  # s, chosen: it answers nothing meanwhile
-THERE = 2e-6  # m, chosen: positions are reported to 1 um
+DIGIT = 1e-6  # m: positions are reported to 1 um
 SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
+NUDGE = 0.5  # s, chosen: a board that says Idle and answers no line for so long is suspended
+QUIET = (MachineState.IDLE, MachineState.ALARM)  # a line is taken in them
+TAKES_LEGS = (MachineState.IDLE, MachineState.JOG)
+LOST = (MachineState.ALARM, MachineState.SLEEP)  # the position may not be true any more
+WAYS_OUT = {
+    MachineState.ALARM: "it is locked",
+    MachineState.HOLD: "somebody holds it",
+    MachineState.CHECK: "it answers and moves nothing ($C)",
+    MachineState.DOOR: "its safety door is open",
+    MachineState.SLEEP: "its motors are off ($SLP)",
+    MachineState.TOOL: "it waits for a change of tools",
+    MachineState.HOME: "somebody else homes it",
+}
 
 
 class Grbl(BoardDriver):
@@ -57,235 +80,298 @@ class Grbl(BoardDriver):
         check_letters(board, LETTERS, "Grbl names its axes")
         self._masses = tuple(masses)
         self._speed = {mass.name: mass.speed for mass in masses}
-        self._lines = Lines()
-        self._axes = {axis.mass: axis for axis in board.axes}
-        self._begin(0.0)
+        self._axes: tuple[Axis, ...] = board.axes
+        self._talk = GrblTalk(self)
+        self._begin()
 
-    def _begin(self, t: float) -> None:
+    def _begin(self) -> None:
         self._settings: dict[int, float] = {}
         self._offset: tuple[float, ...] | None = None
-        self._urgent = b""  # to be sent before anything else
-        self._todo: list[str] = []  # of finding the position: settings, home, zero
-        self._awaited = ""  # what the next ok is for
-        self._sent: dict[str, float] = {}  # m, where the legs sent so far end
-        self._since, self._tried, self._requested = t, t, t
-        self._still = t  # s, since when it says that it stands
-        self._said = ""  # its last state
+        self._route = Route(self._speed)
+        self._halt = Halting(None)
+        self._held: dict[str, float] = {}  # m, where masses stood before a reset
+        self._changed = float("-inf")  # s, of the last thing that only later reports show
+        self._still = float("-inf")  # s, since when positions are the same
+        self._since = self._talk.clock.now  # s, attended, when what it is waited for began
+        self._nudged = False
 
     def opened(self, t: float) -> None:
         """Begin anew, with a reset."""
-        self._lines.cleared()
-        self.counts = Counts()
-        self._begin(t)
-        self.state = BoardState("connecting")
-        self._urgent = RESET
+        self._talk.begin()
+        self._begin()
+        self.state = BoardState(Phase.CONNECTING)
 
     def closed(self, why: str) -> None:
         """Note that the port is gone."""
-        self._fault(f"its port is gone ({why}): unplugged, or without power", lost=True)
+        self._fault(BoardFault.PORT_GONE, why, lost=True)
 
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
-        for line in self._lines.cut(data):
-            report = parsed(line)
-            self.count(good=report is not None, corrupt=report is None)
-            if report is not None:
-                self._received(report, t)
+        for report in self._talk.heard(data, t):
+            self._received(report, t)
 
     def due(self, t: float) -> bytes:
         """Return what to send now."""
-        self._watch(t)
-        said, self._urgent = self._urgent, b""
-        if self.state.phase != "connecting" and t - self._requested >= self._pause - 1e-9:
-            self._requested = t
-            said += b"?"
-        return said + self._next(t)
+        self._talk.clock.turn(t)
+        self._watch()
+        if self.state.phase in (Phase.MOVING, Phase.HOMING) and self.state.goal:
+            self._leg()
+        quick = self.state.phase in (Phase.MOVING, Phase.HOMING, Phase.HALTED)
+        return self._talk.due(t, POLL_MOVING if quick else POLL)
 
     def home(self, t: float) -> None:
-        """Find the position, then go to displacement zero."""
-        self.state = BoardState("homing", reported=self.state.reported)
-        self._todo = ["settings", "home" if self._board.homing else "unlock", "zero"]
-        self._awaited, self._sent, self._since = "", {}, t
+        """Find the position, then go to displacement zero; reset it first if it may not listen."""
+        status = self._talk.status
+        listens = self.state.phase is Phase.READY and status is not None and status.state in QUIET
+        self._talk.queue.drop()
+        if not listens:
+            self._talk.reset()
+        self._ask_settings()
+        self.state = BoardState(Phase.HOMING, reported=self.state.reported)
+        self._route.begin({})
+        self._wait_from(t)
 
     def halt(self, t: float) -> None:
         """Stop at once, slowing down in order; a homing is broken off by a reset."""
-        if self.state.phase == "homing":
-            self._urgent = RESET
-            self._fault("homing was broken off", lost=True)
-        elif self.state.phase == "moving":
-            self._urgent = HOLD + CANCEL
-            self.state = replace(self.state, phase="halted")
-            self._still = t
+        if self.state.phase is Phase.HOMING:
+            self._fault(BoardFault.HOMING_BROKEN, lost=True)
+            self._talk.reset()
+        elif self.state.phase is Phase.MOVING:
+            status = self._talk.status
+            running = status is not None and status.state is MachineState.RUN
+            self._talk.urge(HOLD if running else CANCEL)
+            self._halt = Halting(None if status is None else status.feed)
+            self.state = replace(self.state, phase=Phase.HALTED)
+            self._wait_from(t)
+
+    @property
+    def remarks(self) -> list[Reason]:
+        """What its settings make worse than it need be."""
+        return late_to_stop(self._board, self._masses, self._settings)
 
     # --- What it says ------------------------------------------------------------------------
 
     def _received(self, report: Report, t: float) -> None:
         if isinstance(report, Status):
-            self._status(report, t)
+            self._placed(report)
+            self._judge(report, t)
         elif isinstance(report, Setting):
             self._settings[report.number] = report.value
         elif isinstance(report, Code):
-            self._trouble(report)
+            self._trouble(report, t)
+        elif isinstance(report, Greeting):
+            self._greeted(report, t)
         elif report is Word.OK:
             self._taken(t)
-        elif report is Word.WELCOME:
-            self._welcomed(t)
 
-    def _welcomed(self, t: float) -> None:
-        nothing_lost = self.state.phase in ("halted", "ready") and not self.state.sure
-        if self.state.phase == "connecting" or nothing_lost:  # opening a port may reset it twice
-            self._todo, self._awaited, self._since = ["settings"], "", t
-            self.state = replace(self.state, phase="halted", reported=t)
-        elif self.state.phase != "fault":
-            self._fault("it began anew: its power failed or somebody reset it", lost=True)
+    def _greeted(self, greeting: Greeting, t: float) -> None:
+        phase = self.state.phase
+        if greeting.old:
+            self._fault(BoardFault.OUTDATED, f"'{greeting.text}'", lost=True)
+        elif phase is Phase.CONNECTING or (phase is Phase.READY and not self.state.sure):
+            self._talk.queue.drop()  # opening a port may reset it twice
+            self._talk.queue.cut()
+            self._ask_settings()
+            self.state = BoardState(Phase.CONNECTING, reported=t)
+        elif self._talk.expected:
+            self._halt.begun_anew()
+        elif phase is not Phase.FAULT:
+            self._fault(BoardFault.BEGAN_ANEW, f"'{greeting.text}'", lost=True)
+        self._wait_from(t)
 
-    def _trouble(self, code: Code) -> None:
-        if code.alarm or self._awaited:
-            lost = code.alarm or self._awaited != "leg"
-            self._fault(sentence_of(code.alarm, code.number), lost)
+    def _ask_settings(self) -> None:
+        self._settings = {}
+        self._talk.queue.put([step_command(Step.SETTINGS)])
+
+    def _trouble(self, code: Code, t: float) -> None:
+        if code.alarm:
+            over = self._talk.awaiting and self.state.phase in (Phase.CONNECTING, Phase.HOMING)
+            if not over:  # a reset breaks off what was under way, and is meant to
+                self._fault(
+                    BoardFault.ALARM, alarm_text(code.number), lost=True, number=code.number
+                )
+            return
+        refused = self._answered(t)
+        if refused is Step.LEG and code.number == IDLE_ERROR:
+            self._route.refused = True
+        elif refused is not None and not (refused is Step.LEG and self.state.phase is Phase.HALTED):
+            text = f"error:{code.number} to {refused}"
+            self._fault(
+                BoardFault.REFUSED, error_text(code.number), text, lost=refused is not Step.LEG
+            )
 
     def _taken(self, t: float) -> None:
         """Note that the line under way was taken."""
-        done, self._awaited = self._awaited, ""
-        if done == "settings":
-            wrong = disagreement(self._board, self._masses, self._settings)
-            if wrong:
-                self._fault(f"{wrong}; mend one of the two", lost=True)
-            elif self.state.phase == "halted":
-                self.state = replace(self.state, phase="ready")
-        self._since = t
-
-    def _status(self, status: Status, t: float) -> None:
-        self._offset = status.offset or self._offset
-        machine = status.machine
-        if machine is None and status.work is not None and self._offset is not None:
-            machine = tuple(a + b for a, b in zip(status.work, self._offset, strict=False))
-        if status.state != self._said:
-            self._said, self._still = status.state, t
-        if machine is None:
-            self.state = replace(self.state, reported=t)
+        if self._answered(t) is not Step.SETTINGS:
             return
-        columns = {mass: LETTERS.index(axis.letter) for mass, axis in self._axes.items()}
-        if max(columns.values()) >= len(machine):  # the line lost a part: Grbl reports every axis
+        wrong = disagreement(self._board, self._masses, self._settings)
+        if wrong:
+            self._fault(BoardFault.DISAGREES, wrong, lost=True)
+        elif self.state.phase is Phase.CONNECTING:
+            self.state = replace(self.state, phase=Phase.READY)
+        elif self.state.phase is Phase.HOMING and self._board.homing:
+            longest = longest_homing(self._settings)
+            self._talk.queue.put([step_command(Step.HOME, longest)])
+        elif self.state.phase is Phase.HOMING:
+            self._talk.queue.put([step_command(Step.UNLOCK)])
+
+    def _answered(self, t: float) -> Step | None:
+        command = self._talk.queue.answered()
+        if command is None:
+            return None
+        self._wait_from(t)
+        if command.purpose is Step.HOME:
+            self._talk.ask_anew()  # it may have heard no question meanwhile
+        return command.purpose
+
+    def _placed(self, status: Status) -> None:
+        """Take over where masses are; a line that lost a part is none: Grbl says every axis."""
+        self._offset = status.offset or self._offset
+        machine, arrived = machine_position(status, self._offset), self._talk.arrived
+        if machine is None:
+            return
+        position = displacements(self._axes, machine)
+        if position is None:
             self.count(corrupt=1)
             return
-        position = {
-            mass: self._axes[mass].displacement(in_si(machine[k], MM))
-            for mass, k in columns.items()
-        }
-        self.state = replace(self.state, position=position, reported=t)
-        self._settle(t)
+        if position != self.state.position:
+            self._still = arrived
+        self.state = replace(self.state, position=position, reported=arrived)
 
-    def _settle(self, t: float) -> None:
-        """Let a way or a halt end when the board stands."""
-        state = self.state
-        if self._said == "Hold" and state.phase in ("halted", "ready"):
-            self._urgent = RESUME  # what it held was a jog, which is thrown away
-        if self._awaited or self._said != "Idle" or self._todo:
+    # --- What it means -----------------------------------------------------------------------
+
+    def _judge(self, status: Status, t: float) -> None:
+        """Draw a conclusion from a report that was asked for after what was done last."""
+        phase = self.state.phase
+        if self._talk.asked <= self._changed or phase in (Phase.CONNECTING, Phase.FAULT):
             return
-        if state.phase == "halted" and t - self._still >= POLL and self._settings:
-            self.state = replace(state, phase="ready", goal=dict(state.position))
-        elif state.phase in ("moving", "homing") and state.goal and self._sent == state.goal:
-            there = max(abs(state.position[k] - v) for k, v in state.goal.items()) <= THERE
-            if there or t - max(self._still, self._since) > SETTLED:
-                self.state = replace(state, phase="ready", sure=True)
+        if phase is Phase.HALTED:
+            self._slow_down(status, t)
+        elif not self._talk.queue.over and not self.state.goal:  # it homes
+            return
+        elif status.state in WAYS_OUT and (self.state.sure or phase is not Phase.READY):
+            self._locked(status)
+        elif phase is Phase.HOMING and not self.state.goal:
+            self._found(status)
+        elif phase is not Phase.READY and status.state is MachineState.IDLE:
+            self._arrived()
+
+    def _slow_down(self, status: Status, t: float) -> None:
+        moved = self._moved_by_reset()
+        if moved is not None:
+            name, before, now = moved
+            self._fault(BoardFault.MOVED, name, lost=True, before=before, now=now)
+            return
+        wish = self._halt.wish(status, self._talk.queue.over)
+        if wish is Wish.STANDS:
+            self.state = replace(self.state, phase=Phase.READY, goal=dict(self.state.position))
+        elif wish is Wish.SYNC:
+            self._talk.queue.put([step_command(Step.SYNC)])
+        elif wish is Wish.RESET:
+            self._reset_standing()
+        elif wish in (Wish.CANCEL, Wish.HOLD):
+            self._talk.urge(CANCEL if wish is Wish.CANCEL else HOLD)
+            self._changed = t
+        elif wish is Wish.WRONG:
+            self._locked(status)
+
+    def _reset_standing(self) -> None:
+        """Reset a board that stands: what it holds is thrown away, its position is kept."""
+        self._held = dict(self.state.position)
+        self._talk.reset()
+
+    def _moved_by_reset(self) -> tuple[str, float, float] | None:
+        """Return the first mass that a reset has moved, and from where to where (m)."""
+        held, self._held = self._held, {}
+        moved = ((k, at, self.state.position[k]) for k, at in held.items())
+        return next((each for each in moved if abs(each[1] - each[2]) > 2 * DIGIT), None)
+
+    def _found(self, status: Status) -> None:
+        """Begin the way to displacement zero once the board says where it is after homing."""
+        if status.state is not MachineState.IDLE or not self.state.position:
+            return
+        home = dict.fromkeys(self.state.position, 0.0)
+        if not self._board.homing:
+            self._axes = tuple(
+                replace(axis, zero=axis.position(self.state.position[axis.mass]))
+                for axis in self._axes
+            )
+            self.state = replace(self.state, position=home)
+        self._aim(home, self._talk.arrived)
+
+    def _arrived(self) -> None:
+        """Let a way end where the board stands, all legs sent and taken."""
+        self._since = self._talk.clock.now
+        if self._route.refused:
+            self._route.begin(self.state.position)
+        if not self._talk.queue.over or self._route.sent != self.state.goal:
+            return
+        position, goal = self.state.position, self.state.goal
+        there = all(
+            abs(position[axis.mass] - goal[axis.mass]) <= DIGIT + 0.5 / axis.steps_per_m
+            for axis in self._axes
+        )
+        if there or self._talk.arrived - max(self._still, self._changed) > SETTLED:
+            self.state = replace(self.state, phase=Phase.READY, sure=True)
 
     # --- What is sent ------------------------------------------------------------------------
 
-    def _next(self, t: float) -> bytes:
-        """Return the next line, one at a time."""
-        phase = self.state.phase
-        if self._awaited or phase in ("connecting", "fault"):
-            return b""
-        if self._todo:
-            return self._seek(t)
-        if phase in ("moving", "homing"):
-            return self._leg(t)
-        return self._stop_again(t)
-
-    def _seek(self, t: float) -> bytes:
-        """Return the next step of finding the position."""
-        step = self._todo[0]
-        if step == "zero":
-            return self._found(t)
-        self._todo.pop(0)
-        self._awaited, self._since = step, t
-        if step == "settings":
-            self._settings = {}
-        return {"settings": b"$$\n", "home": b"$H\n", "unlock": b"$X\n"}[step]
-
-    def _found(self, t: float) -> bytes:
-        """Begin the way to displacement zero once the board says where it is after homing."""
-        if self._said not in ("Idle", "Alarm") or (self.state.reported or 0.0) <= self._since:
-            return b""
-        if not self.state.position or self._said == "Alarm":
-            return b""
-        self._todo.pop(0)
-        if not self._board.homing:
-            self._axes = {
-                mass: replace(axis, zero=axis.position(self.state.position[mass]))
-                for mass, axis in self._axes.items()
-            }
-            position = dict.fromkeys(self.state.position, 0.0)
-            self.state = replace(self.state, position=position)
-        self._aim(dict.fromkeys(self.state.position, 0.0), t)
-        return b""
-
     def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal; legs are sent from where the last ones end."""
-        if self.state.phase == "ready" or not self._sent:
-            self._sent = dict(self.state.position)
-        phase: Phase = "homing" if self.state.phase == "homing" else "moving"
-        whole = {name: goal.get(name, at) for name, at in self._sent.items()}
+        if self.state.phase is Phase.READY or not self._route.sent:
+            self._route.begin(self.state.position)
+            self._since = self._talk.clock.now
+        phase = Phase.HOMING if self.state.phase is Phase.HOMING else Phase.MOVING
+        whole = {name: goal.get(name, at) for name, at in self._route.sent.items()}
         self.state = replace(self.state, phase=phase, goal=whole)
 
-    def _leg(self, t: float) -> bytes:
-        """Return the next leg when little is left of those before."""
-        if time_left(self.state.position, self._sent, self._speed) > LEG:
-            return b""
-        way = next_leg(self._sent, self.state.goal, self._speed)
-        if way is None:
-            self._sent = dict(self.state.goal)
-            return b""
-        words, square = "", 0.0
-        for axis in self._axes.values():
-            if axis.mass in way.to:
-                words += f" {axis.letter}{axis.position(way.to[axis.mass]) / MM:.4f}"
-                square += ((way.to[axis.mass] - self._sent[axis.mass]) / MM) ** 2
-        feed = max(square**0.5 / way.duration * MINUTE, 1.0)
-        self._sent = {**self._sent, **way.to}
-        self._awaited, self._since = "leg", t
-        return f"$J=G53 G21 G90{words} F{feed:.2f}\n".encode()
-
-    def _stop_again(self, t: float) -> bytes:
-        """Cancel a leg, too, that was on its way to the board when the hold was sent."""
-        again = self.state.phase == "halted" and self._said in ("Jog", "Run")
-        return CANCEL if again and t - self._still > POLL else b""
+    def _leg(self) -> None:
+        """Send the next leg when little is left of those before."""
+        status = self._talk.status
+        if status is None or status.state not in TAKES_LEGS or not self._talk.queue.over:
+            return
+        leg = self._route.following(self._axes, self.state.position, self.state.goal)
+        if leg is not None:
+            self._talk.queue.put([leg])
 
     # --- Time and trouble --------------------------------------------------------------------
 
-    @property
-    def _pause(self) -> float:
-        return POLL_MOVING if self.state.phase in ("moving", "homing", "halted") else POLL
+    def _wait_from(self, t: float) -> None:
+        """Note that something was done that only later reports show."""
+        self._changed, self._since, self._nudged = t, self._talk.clock.now, False
 
-    def _watch(self, t: float) -> None:
-        """Notice a board that says nothing."""
-        if self.state.phase == "connecting":
-            if t - self._since > BEGIN:
-                self._fault("it does not answer: unplugged, without power, or no Grbl", lost=True)
-            elif t - self._tried > TRY:
-                self._tried, self._urgent = t, RESET
-            return
-        if self.state.phase == "fault":
-            return
-        patience = LONGEST_HOMING if self._awaited == "home" else SILENCE
-        received = max(self.state.reported or 0.0, self._since)
-        if t - received > patience:
-            self._fault("it does not answer: unplugged, or without power", lost=True)
+    def _watch(self) -> None:
+        """Notice what does not come about in time."""
+        late = too_late(self._talk, self.state.phase, self._since)
+        if late is not None:
+            self._stop(late.fault, late.lost)
+            if late.reset:
+                self._talk.reset()
+        elif self._talk.queue.waited > NUDGE and not self._nudged:
+            self._nudge()
 
-    def _fault(self, sentence: str, lost: bool) -> None:
-        self._todo, self._awaited = [], ""
+    def _nudge(self) -> None:
+        """Free a board that says Idle and takes no line; after a halt, of nothing but itself."""
+        status = self._talk.status
+        fresh = self._talk.asked > self._talk.line_sent
+        if not fresh or status is None or status.state is not MachineState.IDLE:
+            return
+        self._nudged = True
+        if self.state.phase is Phase.HALTED:
+            self._reset_standing()
+        else:
+            self._talk.urge(RESUME)
+
+    def _locked(self, status: Status) -> None:
+        lost = status.state in LOST
+        self._fault(BoardFault.LOCKED, status.state, WAYS_OUT[status.state], lost=lost)
+
+    def _fault(self, code: BoardFault, *names: str, lost: bool, **numbers: Number) -> None:
+        self._stop(Reason(code, names, numbers), lost)
+
+    def _stop(self, fault: Reason, lost: bool) -> None:
+        self._talk.queue.drop()
         sure = self.state.sure and not lost
-        self.state = replace(self.state, phase="fault", sentence=sentence, sure=sure)
+        self.state = replace(self.state, phase=Phase.FAULT, fault=fault, sure=sure)
         if not lost:
-            self._urgent = CANCEL
+            self._talk.urge(CANCEL)

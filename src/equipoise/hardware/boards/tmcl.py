@@ -20,7 +20,7 @@ from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.boards.tmcl_scripts import MARK, OBSERVED, Scripts, Steps
 from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_value
 from equipoise.hardware.boards.tmcl_talk import Talk
-from equipoise.hardware.boards.tmcl_words import Request
+from equipoise.hardware.boards.tmcl_words import Request, requested
 from equipoise.hardware.transport.driver_protocol import (
     POLL,
     POLL_MOVING,
@@ -29,14 +29,15 @@ from equipoise.hardware.transport.driver_protocol import (
     Phase,
 )
 from equipoise.model.hardware import MotorBoard
+from equipoise.model.reasons.board_faults import BoardFault
+from equipoise.model.reasons.reason import Number, Reason
 from equipoise.model.testbed import SlidingMass
 
 MOTORS = "012345"
 BEGIN = 4.0  # s, chosen: a radio bridge may take as long to join
 LONGEST_SEARCH = 60.0  # s, chosen
 SETTLED = 0.5  # s, chosen: standing for so long, a mass goes nowhere else
-ABSENT = "it does not answer: unplugged, without power, or just reset; its position is lost"
-ANEW = "it began anew: its power failed or somebody reset it; its position is lost"
+UNMARKED = "the mark in its memory is gone"
 
 
 class Tmcl(BoardDriver):
@@ -61,18 +62,19 @@ class Tmcl(BoardDriver):
         self._requested: dict[str, Request] = {}
         self._turn = 0  # whose limit switch is asked for
         self._still = self._since = self._next = t  # s
+        self._opened = self._talk.clock.now  # s, attended
         self._mute = False  # it was silent; nothing is said until somebody wants it
 
     def opened(self, t: float) -> None:
         """Begin anew."""
         self._talk.begin()
         self._begin(t)
-        self.state = BoardState("connecting")
+        self.state = BoardState(Phase.CONNECTING)
         self._plan = ["version", "settings", "mark"]
 
     def closed(self, why: str) -> None:
         """Note that the port is gone."""
-        self._fault(f"its port is gone ({why}): unplugged, or without power", silent=True)
+        self._fault(BoardFault.PORT_GONE, why, silent=True)
 
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
@@ -80,14 +82,15 @@ class Tmcl(BoardDriver):
 
     def due(self, t: float) -> bytes:
         """Return what to send now."""
-        if self._talk.silent(t):
-            self._unanswered(t)
-        if self._talk.over and self._doing:
+        self._talk.clock.turn(t)
+        if self._talk.queue.overdue:
+            self._unanswered()
+        if self._talk.queue.over and self._doing:
             done, self._doing = self._doing, ""
             self._done(done, t)
-        if self._talk.over and not self._mute and t >= self._next - 1e-9:
+        if self._talk.queue.over and not self._mute and t >= self._next - 1e-9:
             self._more(t)
-        return self._talk.due(t)
+        return self._talk.due()
 
     def home(self, t: float) -> None:
         """Find the position, then go to displacement zero."""
@@ -96,16 +99,16 @@ class Tmcl(BoardDriver):
         counts = self.state.reported
         self._begin(t)
         self._talk.say([])
-        self.state = BoardState("homing", position=self.state.position, reported=counts)
+        self.state = BoardState(Phase.HOMING, position=self.state.position, reported=counts)
         find = ["search", "searched"] if self._board.homing else ["place"]
         self._plan = ["version", "stop", "stopped", "settings", "mark", *find]
 
     def halt(self, t: float) -> None:
         """Stop every mass, slowing down in order; a reference search is broken off."""
-        if self.state.phase == "homing":
-            self._fault("homing was broken off")
-        elif self.state.phase == "moving":
-            self.state = replace(self.state, phase="halted")
+        if self.state.phase is Phase.HOMING:
+            self._fault(BoardFault.HOMING_BROKEN)
+        elif self.state.phase is Phase.MOVING:
+            self.state = replace(self.state, phase=Phase.HALTED)
             self._say("halt", self._scripts.each(w.MST), t)
 
     # --- Scripts -----------------------------------------------------------------------------
@@ -117,15 +120,15 @@ class Tmcl(BoardDriver):
         self._say(doing, script, t)
 
     def _say(self, doing: str, script: Sequence[Request], t: float) -> None:
-        quick = self.state.phase in ("moving", "homing", "halted")
+        quick = self.state.phase in (Phase.MOVING, Phase.HOMING, Phase.HALTED)
         self._doing, self._next = doing, t + (POLL_MOVING if quick else POLL)
         self._talk.say(script)
 
     def _round(self) -> Sequence[Request]:
         """Return a round of questions, with the targets of masses on their way before them."""
-        if self.state.phase in ("ready", "fault"):
+        if self.state.phase in (Phase.READY, Phase.FAULT):
             return [*self._scripts.each(w.GAP, w.AT), OBSERVED]
-        if self.state.phase == "halted" or not self.state.goal:
+        if self.state.phase is Phase.HALTED or not self.state.goal:
             return [*self._scripts.each(w.GAP, w.SPEED), *self._scripts.each(w.GAP, w.AT), OBSERVED]
         going = self._going
         targets = {k: self._steps.target(k, self._at[k], self.state.goal[k]) for k in going}
@@ -159,15 +162,15 @@ class Tmcl(BoardDriver):
     def _done(self, step: str, t: float) -> None:
         """Draw the conclusion from a script that was answered."""
         refused = self._talk.refused
-        if self.state.phase != "fault" and refused and step != "settings":
-            self._fault(refused)
+        if self.state.phase is not Phase.FAULT and refused and step != "settings":
+            self._fault(BoardFault.REFUSED, refused)
         elif step == "round":
             self._rounded(t)
         elif step in self._plan and self._concluded(step, t):
             self._plan.remove(step)
             self._since, self._next = t, t
-            if not self._plan and self.state.phase == "connecting":
-                self.state = replace(self.state, phase="halted")
+            if not self._plan and self.state.phase is Phase.CONNECTING:
+                self.state = replace(self.state, phase=Phase.HALTED)
 
     def _concluded(self, step: str, t: float) -> bool:
         """Say whether a step of the plan is done, and need not be said again."""
@@ -179,7 +182,7 @@ class Tmcl(BoardDriver):
             return True
         if any(a.value for a in self._talk.answers.values()):
             if t - self._since > LONGEST_SEARCH:
-                self._fault("homing did not find a switch")
+                self._search_long(t)
             return False
         return True
 
@@ -187,7 +190,7 @@ class Tmcl(BoardDriver):
         masses, answers = list(self._masses.values()), self._talk.answers
         wrong = disagreement(self._board, masses, answers)
         if wrong:
-            self._fault(f"{wrong}; mend one of the two")
+            self._fault(BoardFault.DISAGREES, wrong)
             return False
         self._guards = {k: guards(axis, answers) for k, axis in self._steps.axes.items()}
         self._scripts.speeds = {
@@ -198,8 +201,8 @@ class Tmcl(BoardDriver):
     def _rounded(self, t: float) -> None:
         """Take over the positions of a round."""
         if self._talk.value(OBSERVED) != MARK:
-            if self.state.phase != "fault":
-                self._fault(ANEW)
+            if self.state.phase is not Phase.FAULT:
+                self._fault(BoardFault.BEGAN_ANEW, UNMARKED)
             return
         commands = {
             k: self._talk.value(Request(w.GAP, w.AT, self._steps.motor(k))) for k in self._names
@@ -218,42 +221,61 @@ class Tmcl(BoardDriver):
         """Let a way or a halt end when masses stand; a way that meets a switch is a fault."""
         state = self.state
         hit = [name for name, q in self._requested.items() if self._talk.value(q)]
-        if state.phase in ("moving", "homing") and state.goal:
+        if state.phase in (Phase.MOVING, Phase.HOMING) and state.goal:
             if hit:
-                self._fault(f"a limit switch was hit (mass {hit[0]}); the position is likely lost")
+                self._fault(BoardFault.SWITCH_HIT, hit[0])
             elif not self._going or t - self._still > SETTLED:
-                self.state = replace(state, phase="ready", sure=True)
-        elif state.phase == "homing":
+                self.state = replace(state, phase=Phase.READY, sure=True)
+        elif state.phase is Phase.HOMING:
             self._aim(dict.fromkeys(self._names, 0.0), t)
-        elif state.phase == "halted":
+        elif state.phase is Phase.HALTED:
             speeds = [self._talk.value(q) for q in self._scripts.each(w.GAP, w.SPEED)]
             if speeds and not any(speeds):
-                self.state = replace(state, phase="ready", goal=dict(state.position))
+                self.state = replace(state, phase=Phase.READY, goal=dict(state.position))
 
     def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal."""
-        if self.state.phase != "moving":
+        if self.state.phase is not Phase.MOVING:
             self._sent, self._requested = dict(self._at), {}
-        phase: Phase = "homing" if self.state.phase == "homing" else "moving"
+        phase = Phase.HOMING if self.state.phase is Phase.HOMING else Phase.MOVING
         whole = {name: goal.get(name, self.state.position[name]) for name in self._names}
         self.state = replace(self.state, phase=phase, goal=whole)
         self._still = self._next = t
 
     # --- Trouble -----------------------------------------------------------------------------
 
-    def _unanswered(self, t: float) -> None:
+    def _unanswered(self) -> None:
+        pending, waited = self._talk.queue.pending, self._talk.queue.waited
+        text, ago = self._talk.last_heard
         self._talk.give_up()
         self._doing = ""
-        if self.state.phase != "connecting":
-            self._fault(ABSENT, silent=True)
-        elif self._plan[0] != "version" or t - self._since > BEGIN:
-            self._fault("it does not answer: unplugged, without power, or no TMCL", silent=True)
+        if self.state.phase is not Phase.CONNECTING:
+            asked = "a request" if pending is None else requested(pending.purpose)
+            numbers = {"waited": waited, "ago": ago}
+            self._fault(BoardFault.SILENT, asked, text, silent=True, numbers=numbers)
+        elif self._plan[0] != "version" or self._talk.clock.now - self._opened > BEGIN:
+            if text == "nothing":
+                self._fault(BoardFault.NEVER_HEARD, silent=True, numbers={"waited": ago})
+            else:
+                self._fault(BoardFault.NOT_ITS_KIND, "TMCL", text, silent=True)
 
-    def _fault(self, sentence: str, silent: bool = False) -> None:
+    def _search_long(self, t: float) -> None:
+        text, ago = self._talk.last_heard
+        numbers = {"waited": t - self._since, "ago": ago}
+        self._fault(BoardFault.HOMING_LONG, text, numbers=numbers)
+
+    def _fault(
+        self,
+        code: BoardFault,
+        *names: str,
+        silent: bool = False,
+        numbers: Mapping[str, Number] | None = None,
+    ) -> None:
         """Stop, if requests still reach the module; nothing moves until it has homed."""
         self._plan, self._doing, self._mute = [], "", silent
-        if self.state.phase != "fault":
-            self.state = replace(self.state, phase="fault", sentence=sentence, sure=False)
+        if self.state.phase is not Phase.FAULT:
+            fault = Reason(code, names, numbers or {})
+            self.state = replace(self.state, phase=Phase.FAULT, fault=fault, sure=False)
         if silent:
             self._talk.give_up()
         else:

@@ -4,14 +4,17 @@ A reply does not say which motor it is about. So nothing is asked while an answe
 nothing is asked again: an answer that comes late would be taken for that of the next motor.
 """
 
-from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from equipoise.hardware.boards.tmcl_words import Request, packed, refusal, replies_in
+from equipoise.hardware.transport.attended_time import AttendedTime
+from equipoise.hardware.transport.command_queue import Command, CommandQueue
 from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.driver_protocol import SILENCE
 from equipoise.model.reading import Counts
+
+SHOWN = 9  # bytes, chosen: a reply
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,43 +32,39 @@ class Talk:
 
     def __init__(self, tally: Tally) -> None:
         self._tally = tally
+        self.clock = AttendedTime()
+        self.queue = CommandQueue[Request](self.clock)
         self.begin()
 
     def begin(self) -> None:
         """Forget everything: the port has just been opened."""
         self._tally.counts = Counts()
         self.answers: dict[Request, Answer] = {}  # of this script
-        self._script: deque[Request] = deque()
-        self._pending: Request | None = None
-        self._requested = 0.0  # s
-        self._void = False  # what is pending is of an earlier script
+        self.give_up()
         self._rest = b""
+        self._heard, self._heard_at = "nothing", self.clock.now
 
     def say(self, script: Iterable[Request]) -> None:
         """Say a script from now on; what was to be said before is not said any more."""
-        self._script = deque(script)
+        self.queue.drop()
+        self.queue.put(Command(packed(request), request, SILENCE) for request in script)
         self.answers = {}
-        self._void = self._pending is not None
 
     def give_up(self) -> None:
         """Await no answer any more, and say nothing."""
-        self._script.clear()
-        self._pending = None
-
-    @property
-    def over(self) -> bool:
-        """Say whether all was said and answered."""
-        return self._pending is None and not self._script
-
-    def silent(self, t: float) -> bool:
-        """Say whether an answer is overdue."""
-        return self._pending is not None and t - self._requested > SILENCE
+        self.queue.drop()
+        self.queue.cut()
 
     @property
     def refused(self) -> str:
         """What was refused first, in words; empty if nothing was."""
         found = (refusal(q, a.status) for q, a in self.answers.items() if not a.done)
         return next(found, "")
+
+    @property
+    def last_heard(self) -> tuple[str, float]:
+        """What was heard last, for people, and how long ago, s, attended."""
+        return self._heard, self.clock.now - self._heard_at
 
     def value(self, request: Request) -> int | None:
         """Return what was answered to a request of this script; None: nothing, or a refusal."""
@@ -80,24 +79,25 @@ class Talk:
 
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
+        if data:
+            self._heard, self._heard_at = f"'{data[-SHOWN:].hex(' ')}'", self.clock.now
         replies, breaks, self._rest = replies_in(self._rest + data)
         self._tally.count(corrupt=breaks)
         for reply in replies:
-            pending = self._pending
-            if pending is None or reply.command != pending.command:
+            pending = self.queue.pending
+            if pending is None or reply.command != pending.purpose.command:
                 self._tally.count(foreign=1)
                 continue
             self._tally.count(good=1)
-            self._pending = None
-            if not self._void:
-                self.answers[pending] = Answer(reply.status, reply.value, reply.done, t)
-            self._void = False
+            done = self.queue.answered()
+            if done is not None:
+                answer = Answer(reply.status, reply.value, reply.done, self.clock.arrival(t))
+                self.answers[done.purpose] = answer
 
-    def due(self, t: float) -> bytes:
+    def due(self) -> bytes:
         """Return the next request once the one before is answered."""
-        if self._pending is not None or not self._script:
-            return b""
-        self._tally.count(corrupt=bool(self._rest))
-        self._rest = b""  # what is left over now belongs to no answer
-        self._pending, self._requested, self._void = self._script.popleft(), t, False
-        return packed(self._pending)
+        said = self.queue.following()
+        if said:
+            self._tally.count(corrupt=bool(self._rest))
+            self._rest = b""  # what is left over now belongs to no answer
+        return said

@@ -88,8 +88,14 @@ def replies_in(data: bytes) -> tuple[Sequence[Reply], int, bytes]:
 
 def refusal(request: Request, status: int) -> str:
     """Return in words what was refused."""
-    requested = f"command {request.command}, type {request.type}, motor {request.motor}"
-    return f"{REFUSALS.get(status, 'it refused a request')} (status {status} to {requested})"
+    return (
+        f"{REFUSALS.get(status, 'it refused a request')} (status {status} to {requested(request)})"
+    )
+
+
+def requested(request: Request) -> str:
+    """Return a request in words."""
+    return f"command {request.command}, type {request.type}, motor {request.motor}"
 
 
 def _reply(data: bytes) -> Reply | None:

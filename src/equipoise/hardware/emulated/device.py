@@ -58,6 +58,18 @@ class EmulatedBoard(Protocol):
         """Let time pass up to ``t``; return what it says meanwhile and the legs that began."""
         ...
 
+    def press_reset(self) -> None:
+        """Press the button on the board."""
+        ...
+
+    def switch(self, on: bool) -> None:
+        """Switch the power; without it masses stand where they are."""
+        ...
+
+    def hit_limit(self) -> None:
+        """Push the limit switch ahead of whatever goes."""
+        ...
+
 
 def sensed_rows(unit: SensorUnit, rows: Recording) -> Sequence[tuple[float, dict[Gives, Floats]]]:
     """Return each time (s), in order, with the rows of the unit's channels in the unit's axes."""

@@ -9,12 +9,14 @@ from equipoise.hardware.emulated.line_protocol import EmulatedLineProtocol
 from equipoise.hardware.emulated.mavlink import EmulatedMavlink
 from equipoise.hardware.emulated.natnet import EmulatedNatNet
 from equipoise.hardware.emulated.rosbridge import EmulatedRosBridge
+from equipoise.hardware.emulated.serial_line import BoardOnLine
 from equipoise.hardware.emulated.tmcl import EmulatedTmcl
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
+from equipoise.hardware.transport.driver_protocol import driver_named
 from equipoise.model.hardware import MotorBoard, SensorUnit
 from equipoise.model.testbed import SlidingMass
 
-BOARDS: dict[str, Callable[[MotorBoard, Sequence[SlidingMass]], EmulatedBoard]] = {
+FIRMWARES: dict[str, Callable[[MotorBoard, Sequence[SlidingMass]], EmulatedBoard]] = {
     "grbl": EmulatedGrbl,
     "tmcl": EmulatedTmcl,
 }
@@ -26,3 +28,9 @@ SENSORS: dict[str, Callable[[SensorUnit], EmulatedSensor]] = {
     "rosbridge": EmulatedRosBridge,
     "vectornav": EmulatedVectorNav,
 }
+
+
+def emulated_board(board: MotorBoard, masses: Sequence[SlidingMass]) -> BoardOnLine:
+    """Return a board's counterpart at the end of its line, as ``driver_named`` finds it."""
+    firmware = driver_named(FIRMWARES, board.driver, "board")(board, masses)
+    return BoardOnLine(firmware, board.port.baud)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.hardware.links.sensor_link import SensorLink
-from equipoise.hardware.transport.driver_protocol import BoardDriver, BoardState
+from equipoise.hardware.transport.driver_protocol import BoardDriver, BoardState, Phase
 from equipoise.hardware.transport.reconnecting_port import Connection
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.reasons.interlocks import Interlock
@@ -63,12 +63,12 @@ class Links:
     @property
     def ready(self) -> bool:
         """Say whether every board stands and knows where."""
-        return all(state.phase == "ready" and state.sure for state in self.states.values())
+        return all(state.phase is Phase.READY and state.sure for state in self.states.values())
 
     @property
     def answered(self) -> bool:
         """Say whether every board has said how it is."""
-        return all(state.phase != "connecting" for state in self.states.values())
+        return all(state.phase is not Phase.CONNECTING for state in self.states.values())
 
     @property
     def reported(self) -> float | None:
@@ -95,7 +95,7 @@ class Links:
     def unsure(self) -> Reason | None:
         """The first board that is at fault or has lost its position, and why; None if none."""
         for name, state in self.states.items():
-            if state.phase == "fault" or not state.sure:
+            if state.phase is Phase.FAULT or not state.sure:
                 fault = Reason(Interlock.FAULT, (name, state.sentence))
                 return fault if state.sentence else Reason(Interlock.POSITION_UNKNOWN, (name,))
         return None

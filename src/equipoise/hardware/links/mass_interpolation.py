@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.hardware.transport.driver_protocol import BoardState
+from equipoise.hardware.transport.driver_protocol import BoardState, Phase
 from equipoise.model.arrays import Bools, Series1
 from equipoise.model.hardware import Axis
 
@@ -34,7 +34,7 @@ class Answer:
 
 def on_the_way(state: BoardState, axes: Sequence[Axis]) -> dict[str, bool]:
     """Return of each mass of a board whether it is not yet where it was sent."""
-    moving = state.phase in ("moving", "homing")
+    moving = state.phase in (Phase.MOVING, Phase.HOMING)
     return {
         axis.mass: moving and _short_of(state.position, state.goal, axis)
         for axis in axes

@@ -8,13 +8,25 @@ raises: what cannot be understood is counted.
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, TypeVar
+from enum import StrEnum
+from typing import TypeVar
 
 from equipoise.hardware.transport.conversation import Tally
 from equipoise.model.errors import BenchStopped, InputError, nearest
 from equipoise.model.hardware import MotorBoard
+from equipoise.model.reasons.reason import Reason
 
-Phase = Literal["connecting", "ready", "homing", "moving", "halted", "fault"]
+
+class Phase(StrEnum):
+    """What a board does now."""
+
+    CONNECTING = "connecting"
+    READY = "ready"  # it stands, and may be asked to home or, where it is sure, to move
+    HOMING = "homing"
+    MOVING = "moving"
+    HALTED = "halted"  # it was told to stop, and has not confirmed yet that it stands
+    FAULT = "fault"
+
 
 Kind = TypeVar("Kind")
 
@@ -24,11 +36,16 @@ class BoardState:
     """What is known of a board now."""
 
     phase: Phase
-    sentence: str = ""  # of a fault, for people: what happened and what to do
+    fault: Reason | None = None  # what happened and what to do, in phase FAULT
     position: Mapping[str, float] = field(default_factory=dict[str, float])  # m, displacement
     goal: Mapping[str, float] = field(default_factory=dict[str, float])  # m, where masses are sent
     reported: float | None = None  # s, time of the last reported position; None: never
     sure: bool = False  # the position is known: found by switches or by a person, not lost since
+
+    @property
+    def sentence(self) -> str:
+        """The fault for people; empty if there is none."""
+        return "" if self.fault is None else self.fault.sentence
 
 
 class BoardDriver(Tally):
@@ -40,7 +57,7 @@ class BoardDriver(Tally):
 
     def __init__(self, board: MotorBoard) -> None:
         super().__init__()
-        self._board, self.state = board, BoardState("connecting")
+        self._board, self.state = board, BoardState(Phase.CONNECTING)
 
     @abstractmethod
     def opened(self, t: float) -> None:
@@ -70,10 +87,16 @@ class BoardDriver(Tally):
 
         Raises BenchStopped while they may not move.
         """
-        if self.state.phase not in ("ready", "moving") or not self.state.sure:
-            why = self.state.sentence or f"it is {self.state.phase}, its position not known"
+        if self.state.phase not in (Phase.READY, Phase.MOVING) or not self.state.sure:
+            unsure = "" if self.state.sure else ", its position is not known"
+            why = self.state.sentence or f"it is {self.state.phase}{unsure}"
             raise BenchStopped(f"board {self._board.name}: {why}")
         self._aim({**self.state.goal, **goals}, t)
+
+    @property
+    def remarks(self) -> list[Reason]:
+        """What the board is set to that makes it worse than it need be; it stops nothing."""
+        return []
 
     @abstractmethod
     def halt(self, t: float) -> None:
@@ -87,7 +110,7 @@ class BoardDriver(Tally):
 LEG = 0.25  # s, chosen: what a board does without its computer is over within twice that
 POLL = 0.1  # s, chosen: how often a board is asked where it is while masses stand
 POLL_MOVING = 0.05  # s, the same while they move
-SILENCE = 0.4  # s, chosen: a board that has not answered for so long is lost
+SILENCE = 1.0  # s, attended, chosen: an answer takes a few ms, or 0.25 s over a radio bridge
 
 
 def driver_named(kinds: Mapping[str, Kind], driver: str, what: str) -> Kind:

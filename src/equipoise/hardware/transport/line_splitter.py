@@ -7,17 +7,17 @@ class Lines:
     """A buffer of half a line."""
 
     def __init__(self) -> None:
-        self._rest = b""
+        self.rest = b""  # half a line
         self.dropped = 0  # lines too long to be any
 
     def cleared(self) -> None:
         """Forget half a line."""
-        self._rest = b""
+        self.rest = b""
 
     def cut(self, data: bytes) -> list[bytes]:
         """Return the lines that are complete with these bytes, without their ends."""
-        *whole, self._rest = (self._rest + data).replace(b"\r", b"\n").split(b"\n")
-        if len(self._rest) > LONGEST:
-            self._rest = b""
+        *whole, self.rest = (self.rest + data).replace(b"\r", b"\n").split(b"\n")
+        if len(self.rest) > LONGEST:
+            self.rest = b""
             self.dropped += 1
         return [line for line in whole if line]

@@ -1,0 +1,144 @@
+"""What goes back and forth with a Grbl board: one line under way, one question, a reset.
+
+    line    ok or error:n answers the one under way
+    ?       asked again and again; a report answers the oldest question that is open
+    0x18    the board begins anew; until it says so, nothing that it says answers a line
+
+A report is as fresh as its question: what a line did is seen only in a report that was asked for
+after the line was answered. Where no question is open, a report is as old as the one before.
+"""
+
+from collections.abc import Iterator
+from enum import StrEnum
+
+from equipoise.hardware.boards.grbl_report import Code, Greeting, Report, Status, Word, parsed
+from equipoise.hardware.transport.attended_time import AttendedTime
+from equipoise.hardware.transport.command_queue import CommandQueue
+from equipoise.hardware.transport.conversation import Tally
+from equipoise.hardware.transport.line_splitter import Lines
+from equipoise.model.reading import Counts
+
+RESET, HOLD, RESUME, CANCEL, ASK = b"\x18", b"!", b"~", b"\x85", b"?"
+BEGIN = 4.0  # s, attended, chosen: an Arduino's loader takes two of them after the port is opened
+TRY = 1.5  # s, attended, chosen: between resets while it has not begun
+UNGREETED = 1.0  # s, chosen: who reports a state so long after a reset has begun
+AGAIN = 0.25  # s, attended, chosen: a question that is open for so long is asked again
+SHOWN = 60  # characters, chosen: of what was heard last
+
+
+class Step(StrEnum):
+    """What a line is for, as a person would say it."""
+
+    SETTINGS = "its settings ($$)"
+    HOME = "homing ($H)"
+    UNLOCK = "unlocking ($X)"
+    LEG = "a jog ($J)"
+    SYNC = "an empty line"
+
+
+class GrblTalk:
+    """See above; ``tally`` counts what arrives."""
+
+    def __init__(self, tally: Tally) -> None:
+        self._tally, self._lines = tally, Lines()
+        self.clock = AttendedTime()
+        self.queue = CommandQueue[Step](self.clock)
+        self.begin()
+
+    def begin(self) -> None:
+        """Reset the board: its port has just been opened, what was before is void."""
+        self._lines.cleared()
+        self._tally.counts = Counts()
+        self.queue.drop()
+        self.status: Status | None = None  # the last
+        self.asked = self.arrived = float("-inf")  # s, bench time, of the last status
+        self.line_sent = float("-inf")  # s, bench time, of the last line
+        self._last_asked = float("-inf")  # s, attended
+        self._heard, self._heard_at = b"", self.clock.now
+        self.expected = True  # the last greeting was awaited
+        self.reset()
+
+    def reset(self) -> None:
+        """Let the board begin anew; lines wait until it has."""
+        self._urgent = RESET
+        self.queue.cut()
+        self.awaiting = True
+        self._reset_at = self._tried = self.clock.now
+        self._open: tuple[float, float] | None = None  # the open question: s of bench, s attended
+
+    def urge(self, byte: bytes) -> None:
+        """Send a byte that acts at once, and a question behind it."""
+        self._urgent += byte
+        self._last_asked = float("-inf")
+
+    def ask_anew(self) -> None:
+        """Let the open question have been asked now: the board has not listened so far."""
+        if self._open is not None:
+            self._open = self._open[0], self.clock.now
+
+    def heard(self, data: bytes, t: float) -> Iterator[Report]:
+        """Return what matters of what has arrived, one report after the other."""
+        if data:
+            self._heard_at = self.clock.now
+        for line in self._lines.cut(data):
+            self._heard = line
+            report = parsed(line)
+            self._tally.count(good=report is not None, corrupt=report is None)
+            if report is not None:
+                yield from self._mattering(report, t)
+
+    def due(self, t: float, pause: float) -> bytes:
+        """Return what to send; questions are ``pause`` apart, s."""
+        said, self._urgent = self._urgent, b""
+        if self.clock.now - self._tried > TRY and self.reset_waited > 0:
+            self._tried = self.clock.now
+            said += RESET
+        said += self._question(t, pause)
+        line = b"" if self.awaiting else self.queue.following()
+        self.line_sent = t if line else self.line_sent
+        return said + line
+
+    @property
+    def reset_waited(self) -> float:
+        """How long the board has been awaited after a reset, s, attended."""
+        return self.clock.now - self._reset_at if self.awaiting else 0.0
+
+    @property
+    def question_waited(self) -> float:
+        """How long a question has been open, s, attended."""
+        return 0.0 if self._open is None else self.clock.now - self._open[1]
+
+    @property
+    def last_heard(self) -> tuple[str | None, float]:
+        """What was heard last, for people, None: nothing; and how long ago, s, attended."""
+        heard = self._heard or self._lines.rest
+        text = f"'{heard.decode('ascii', 'backslashreplace')[:SHOWN]}'" if heard else None
+        return text, self.clock.now - self._heard_at
+
+    def _question(self, t: float, pause: float) -> bytes:
+        now = self.clock.now
+        if now - self._last_asked < (pause if self._open is None else AGAIN) - 1e-9:
+            return b""
+        self._last_asked = now
+        self._open = self._open or (t, now)
+        return ASK
+
+    def _mattering(self, report: Report, t: float) -> Iterator[Report]:
+        """Pass on what is no answer of before a reset; a state long after one is a greeting."""
+        if isinstance(report, Greeting):
+            self.expected, self.awaiting, self._open = self.awaiting, False, None
+        elif self.awaiting and isinstance(report, Status):
+            if self._open is None or self._open[1] - self._reset_at < UNGREETED:
+                return
+            self.expected, self.awaiting = True, False
+            yield Greeting("no greeting", old=False)
+        elif self.awaiting and not (isinstance(report, Code) and report.alarm):
+            return
+        if isinstance(report, Status):
+            self._reported(report, t)
+        if report is not Word.REMARK:
+            yield report
+
+    def _reported(self, status: Status, t: float) -> None:
+        self.asked = self.arrived if self._open is None else self._open[0]
+        self._open, self.status, self.arrived = None, status, self.clock.arrival(t)
