@@ -19,6 +19,7 @@ from equipoise.model.errors import InputError
 from verification import (
     any_bytes,
     balanced,
+    board_soak,
     calibration,
     camera,
     compared,
@@ -96,6 +97,7 @@ CHECKS = {
     "emulated_nanosat": Check(emulated_balancing.of("nanosat", "Grbl and VN-100"), 60),
     "emulated_sputnix": Check(emulated_balancing.of("sputnix", "Grbl and a drawn camera"), 80),
     "faulty_benches": Check(faulty_benches.measure, 306),
+    "board_soak": Check(board_soak.measure, 50),
     "killed_recordings": Check(killed_recordings.measure, 200),
     "any_bytes": Check(any_bytes.measure, 1000),
     "camera": Check(camera.measure, 25),

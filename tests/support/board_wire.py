@@ -71,12 +71,12 @@ class Wire:
         for leg in ahead_of([], [leg for leg in self.legs if leg.mass == name]):
             if leg.t > t:
                 break
-            at = 0.0 if before is None else _along(before, at, leg.t)
+            at = 0.0 if before is None else along(before, at, leg.t)
             before = leg
-        return at if before is None else _along(before, at, t)
+        return at if before is None else along(before, at, t)
 
 
-def _along(leg, begin, t):
+def along(leg, begin, t):
     if t >= leg.end:
         return leg.displacement
     return begin + (t - leg.t) / (leg.end - leg.t) * (leg.displacement - begin)

@@ -151,7 +151,7 @@ def ahead_of(waiting: Sequence[Leg], new: Sequence[Leg]) -> list[Leg]:
 def emulate(testbed: Testbed, seed: int) -> EmulatedBench:
     """Return a bench emulated as the testbed file declares its hardware."""
     hardware = hardware_of(testbed)
-    boards = [
+    boards: list[Station[EmulatedBoard]] = [
         Station(
             emulated_board(board, testbed.masses),
             counterpart(board.port),

@@ -45,6 +45,7 @@ from equipoise.hardware.boards.grbl_talk import CANCEL, HOLD, RESUME, GrblTalk, 
 from equipoise.hardware.boards.grbl_watch import too_late
 from equipoise.hardware.transport.driver_protocol import (
     POLL,
+    POLL_HALTED,
     POLL_MOVING,
     BoardDriver,
     BoardState,
@@ -57,8 +58,9 @@ from equipoise.model.testbed import SlidingMass
 
 DIGIT = 1e-6  # m: positions are reported to 1 um
 SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
-NUDGE = 0.5  # s, chosen: a board that says Idle and answers no line for so long is suspended
+NUDGE = 0.1  # s, chosen: a board takes a line within some ms; printing its settings takes 55
 QUIET = (MachineState.IDLE, MachineState.ALARM)  # a line is taken in them
+POLLS = {Phase.MOVING: POLL_MOVING, Phase.HOMING: POLL_MOVING, Phase.HALTED: POLL_HALTED}
 TAKES_LEGS = (MachineState.IDLE, MachineState.JOG)
 LOST = (MachineState.ALARM, MachineState.SLEEP)  # the position may not be true any more
 WAYS_OUT = {
@@ -94,6 +96,7 @@ class Grbl(BoardDriver):
         self._still = float("-inf")  # s, since when positions are the same
         self._since = self._talk.clock.now  # s, attended, when what it is waited for began
         self._nudged = False
+        self._first_idle = float("inf")  # s, bench time: reported so with a line under way
 
     def opened(self, t: float) -> None:
         """Begin anew, with a reset."""
@@ -116,8 +119,7 @@ class Grbl(BoardDriver):
         self._watch()
         if self.state.phase in (Phase.MOVING, Phase.HOMING) and self.state.goal:
             self._leg()
-        quick = self.state.phase in (Phase.MOVING, Phase.HOMING, Phase.HALTED)
-        return self._talk.due(t, POLL_MOVING if quick else POLL)
+        return self._talk.due(t, POLLS.get(self.state.phase, POLL))
 
     def home(self, t: float) -> None:
         """Find the position, then go to displacement zero; reset it first if it may not listen."""
@@ -175,7 +177,9 @@ class Grbl(BoardDriver):
             self.state = BoardState(Phase.CONNECTING, reported=t)
         elif self._talk.expected:
             self._halt.begun_anew()
-        elif phase is not Phase.FAULT:
+        elif phase is Phase.FAULT:
+            self.state = replace(self.state, sure=False)
+        else:
             self._fault(BoardFault.BEGAN_ANEW, f"'{greeting.text}'", lost=True)
         self._wait_from(t)
 
@@ -202,7 +206,10 @@ class Grbl(BoardDriver):
 
     def _taken(self, t: float) -> None:
         """Note that the line under way was taken."""
-        if self._answered(t) is not Step.SETTINGS:
+        step = self._answered(t)
+        if step is Step.LEG and self.state.phase is Phase.HALTED:
+            self._talk.urge(CANCEL)  # it may have been taken after the first
+        if step is not Step.SETTINGS:
             return
         wrong = disagreement(self._board, self._masses, self._settings)
         if wrong:
@@ -347,15 +354,25 @@ class Grbl(BoardDriver):
             self._stop(late.fault, late.lost)
             if late.reset:
                 self._talk.reset()
-        elif self._talk.queue.waited > NUDGE and not self._nudged:
+        elif self._suspended() and not self._nudged:
             self._nudge()
 
+    def _suspended(self) -> bool:
+        """Say whether it says Idle twice while a line that it has is not answered.
+
+        Bytes keep their order: what is asked after the line is behind it there, and the report of
+        that would be behind the answer here.
+        """
+        talk, status = self._talk, self._talk.status
+        waiting = talk.queue.pending is not None and talk.asked > talk.line_sent
+        if not waiting or status is None or status.state is not MachineState.IDLE:
+            self._first_idle = float("inf")
+        else:
+            self._first_idle = min(self._first_idle, talk.arrived)
+        return talk.asked > self._first_idle + NUDGE
+
     def _nudge(self) -> None:
-        """Free a board that says Idle and takes no line; after a halt, of nothing but itself."""
-        status = self._talk.status
-        fresh = self._talk.asked > self._talk.line_sent
-        if not fresh or status is None or status.state is not MachineState.IDLE:
-            return
+        """Free it; after a halt by a reset, since a line of before would be carried out else."""
         self._nudged = True
         if self.state.phase is Phase.HALTED:
             self._reset_standing()

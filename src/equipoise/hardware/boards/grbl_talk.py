@@ -5,9 +5,12 @@
     0x18    the board begins anew; until it says so, nothing that it says answers a line
 
 A report is as fresh as its question: what a line did is seen only in a report that was asked for
-after the line was answered. Where no question is open, a report is as old as the one before.
+after the line was answered. A report is taken for that of the oldest question that is open, and
+where none is, to be as old as the one before: it may be newer than that, and is never older. A
+question may be lost on the way; after ``VOID`` it is open no more.
 """
 
+from collections import deque
 from collections.abc import Iterator
 from enum import StrEnum
 
@@ -23,6 +26,7 @@ BEGIN = 4.0  # s, attended, chosen: an Arduino's loader takes two of them after 
 TRY = 1.5  # s, attended, chosen: between resets while it has not begun
 UNGREETED = 1.0  # s, chosen: who reports a state so long after a reset has begun
 AGAIN = 0.25  # s, attended, chosen: a question that is open for so long is asked again
+VOID = 1.0  # s, attended, chosen: longer than a report takes there and back by radio
 SHOWN = 60  # characters, chosen: of what was heard last
 
 
@@ -52,8 +56,10 @@ class GrblTalk:
         self.queue.drop()
         self.status: Status | None = None  # the last
         self.asked = self.arrived = float("-inf")  # s, bench time, of the last status
+        self._asked_at = float("-inf")  # s, attended, of the last status
         self.line_sent = float("-inf")  # s, bench time, of the last line
         self._last_asked = float("-inf")  # s, attended
+        self._unreported = False  # nothing was reported since it was asked last
         self._heard, self._heard_at = b"", self.clock.now
         self.expected = True  # the last greeting was awaited
         self.reset()
@@ -64,7 +70,8 @@ class GrblTalk:
         self.queue.cut()
         self.awaiting = True
         self._reset_at = self._tried = self.clock.now
-        self._open: tuple[float, float] | None = None  # the open question: s of bench, s attended
+        self._open: deque[tuple[float, float]] = deque()  # questions: s of bench, s attended
+        self._quiet_since = self.clock.now
 
     def urge(self, byte: bytes) -> None:
         """Send a byte that acts at once, and a question behind it."""
@@ -72,9 +79,8 @@ class GrblTalk:
         self._last_asked = float("-inf")
 
     def ask_anew(self) -> None:
-        """Let the open question have been asked now: the board has not listened so far."""
-        if self._open is not None:
-            self._open = self._open[0], self.clock.now
+        """Forget open questions: the board has not listened so far."""
+        self._open.clear()
 
     def heard(self, data: bytes, t: float) -> Iterator[Report]:
         """Return what matters of what has arrived, one report after the other."""
@@ -105,8 +111,16 @@ class GrblTalk:
 
     @property
     def question_waited(self) -> float:
-        """How long a question has been open, s, attended."""
-        return 0.0 if self._open is None else self.clock.now - self._open[1]
+        """How long no report has come though one was asked for, s, attended."""
+        return self.clock.now - self._quiet_since if self._open else 0.0
+
+    @property
+    def reported_since_due(self) -> bool:
+        """Say whether the board was asked, and reported, after an answer was due: it is there."""
+        pending = self.queue.pending
+        if pending is None:
+            return False
+        return self._asked_at > self.clock.now - self.queue.waited + pending.patience
 
     @property
     def last_heard(self) -> tuple[str | None, float]:
@@ -117,18 +131,24 @@ class GrblTalk:
 
     def _question(self, t: float, pause: float) -> bytes:
         now = self.clock.now
-        if now - self._last_asked < (pause if self._open is None else AGAIN) - 1e-9:
+        while len(self._open) > 1 and now - self._open[0][1] > VOID:
+            self._open.popleft()
+        if now - self._last_asked < (AGAIN if self._unreported else pause) - 1e-9:
             return b""
         self._last_asked = now
-        self._open = self._open or (t, now)
+        if not self._open:
+            self._quiet_since = now
+        self._open.append((t, now))
+        self._unreported = True
         return ASK
 
     def _mattering(self, report: Report, t: float) -> Iterator[Report]:
         """Pass on what is no answer of before a reset; a state long after one is a greeting."""
         if isinstance(report, Greeting):
-            self.expected, self.awaiting, self._open = self.awaiting, False, None
+            self.expected, self.awaiting = self.awaiting, False
+            self._open.clear()
         elif self.awaiting and isinstance(report, Status):
-            if self._open is None or self._open[1] - self._reset_at < UNGREETED:
+            if not self._open or self._open[0][1] - self._reset_at < UNGREETED:
                 return
             self.expected, self.awaiting = True, False
             yield Greeting("no greeting", old=False)
@@ -140,5 +160,9 @@ class GrblTalk:
             yield report
 
     def _reported(self, status: Status, t: float) -> None:
-        self.asked = self.arrived if self._open is None else self._open[0]
-        self._open, self.status, self.arrived = None, status, self.clock.arrival(t)
+        if self._open:
+            self.asked, self._asked_at = self._open.popleft()
+        else:
+            self.asked = self.arrived
+        self._quiet_since, self._unreported = self.clock.now, False
+        self.status, self.arrived = status, self.clock.arrival(t)

@@ -31,7 +31,7 @@ def too_late(talk: GrblTalk, phase: Phase, since: float) -> Late | None:
         return _not_begun(talk, phase) if talk.reset_waited > BEGIN else None
     pending = talk.queue.pending
     homes = pending is not None and pending.purpose is Step.HOME  # it may answer nothing then
-    if pending is not None and talk.queue.overdue:
+    if pending is not None and talk.queue.overdue and (homes or talk.reported_since_due):
         return _unanswered(talk, pending.purpose)
     if talk.question_waited > SILENCE and not homes:
         asked = "its state (?)"

@@ -17,7 +17,7 @@ from dataclasses import replace
 
 from equipoise.hardware.boards import tmcl_words as w
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.tmcl_scripts import MARK, OBSERVED, Scripts, Steps
+from equipoise.hardware.boards.tmcl_scripts import CALLED, MARK, OBSERVED, Scripts, Steps
 from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_value
 from equipoise.hardware.boards.tmcl_talk import Talk
 from equipoise.hardware.boards.tmcl_words import Request, requested
@@ -34,7 +34,6 @@ from equipoise.model.reasons.reason import Number, Reason
 from equipoise.model.testbed import SlidingMass
 
 MOTORS = "012345"
-BEGIN = 4.0  # s, chosen: a radio bridge may take as long to join
 LONGEST_SEARCH = 60.0  # s, chosen
 SETTLED = 0.5  # s, chosen: standing for so long, a mass goes nowhere else
 UNMARKED = "the mark in its memory is gone"
@@ -60,9 +59,10 @@ class Tmcl(BoardDriver):
         self._sent: dict[str, int] = {}  # microsteps, targets
         # The limit switch asked for in this round, by mass.
         self._requested: dict[str, Request] = {}
+        self._commanded = False  # the round under way sends masses elsewhere, or does not yet
         self._turn = 0  # whose limit switch is asked for
         self._still = self._since = self._next = t  # s
-        self._opened = self._talk.clock.now  # s, attended
+        self._calls = 0  # for the version, until it was answered
         self._mute = False  # it was silent; nothing is said until somebody wants it
 
     def opened(self, t: float) -> None:
@@ -116,6 +116,11 @@ class Tmcl(BoardDriver):
     def _more(self, t: float) -> None:
         """Say the next step of the plan, or ask another round."""
         doing = self._plan[0] if self._plan else "round"
+        if doing == "version":
+            self._doing = doing
+            self._talk.call(CALLED, shifted=self._calls > 0)
+            self._calls += 1
+            return
         script = self._round() if doing == "round" else self._scripts.step(doing)
         self._say(doing, script, t)
 
@@ -126,6 +131,7 @@ class Tmcl(BoardDriver):
 
     def _round(self) -> Sequence[Request]:
         """Return a round of questions, with the targets of masses on their way before them."""
+        self._commanded = False
         if self.state.phase in (Phase.READY, Phase.FAULT):
             return [*self._scripts.each(w.GAP, w.AT), OBSERVED]
         if self.state.phase is Phase.HALTED or not self.state.goal:
@@ -138,6 +144,7 @@ class Tmcl(BoardDriver):
             if self._sent.get(k) != target
         ]
         self._sent |= targets
+        self._commanded = bool(commands)
         requested = [Request(w.GAP, w.AT, self._steps.motor(k)) for k in going]
         return [*commands, *requested, *self._switch_ahead(going), OBSERVED]
 
@@ -162,6 +169,8 @@ class Tmcl(BoardDriver):
     def _done(self, step: str, t: float) -> None:
         """Draw the conclusion from a script that was answered."""
         refused = self._talk.refused
+        if step == "version" and refused and self._calls < w.SIZE:
+            return  # it is called again, another part of a datagram later
         if self.state.phase is not Phase.FAULT and refused and step != "settings":
             self._fault(BoardFault.REFUSED, refused)
         elif step == "round":
@@ -208,7 +217,7 @@ class Tmcl(BoardDriver):
             k: self._talk.value(Request(w.GAP, w.AT, self._steps.motor(k))) for k in self._names
         }
         at = self._at | {k: value for k, value in commands.items() if value is not None}
-        if at != self._at:
+        if at != self._at or self._commanded:
             self._still = t
         self._at = at
         position = {k: self._steps.displacement(k, value) for k, value in at.items()}
@@ -241,6 +250,7 @@ class Tmcl(BoardDriver):
         whole = {name: goal.get(name, self.state.position[name]) for name in self._names}
         self.state = replace(self.state, phase=phase, goal=whole)
         self._still = self._next = t
+        self._commanded = True  # the round under way does not know of it
 
     # --- Trouble -----------------------------------------------------------------------------
 
@@ -248,16 +258,17 @@ class Tmcl(BoardDriver):
         pending, waited = self._talk.queue.pending, self._talk.queue.waited
         text, ago = self._talk.last_heard
         self._talk.give_up()
-        self._doing = ""
+        doing, self._doing = self._doing, ""
+        if doing == "version" and self._calls < w.SIZE:
+            return  # it is called again
         if self.state.phase is not Phase.CONNECTING:
             asked = "a request" if pending is None else requested(pending.purpose)
             numbers = {"waited": waited, "ago": ago}
             self._fault(BoardFault.SILENT, asked, text, silent=True, numbers=numbers)
-        elif self._plan[0] != "version" or self._talk.clock.now - self._opened > BEGIN:
-            if text == "nothing":
-                self._fault(BoardFault.NEVER_HEARD, silent=True, numbers={"waited": ago})
-            else:
-                self._fault(BoardFault.NOT_ITS_KIND, "TMCL", text, silent=True)
+        elif text == "nothing":
+            self._fault(BoardFault.NEVER_HEARD, silent=True, numbers={"waited": ago})
+        else:
+            self._fault(BoardFault.NOT_ITS_KIND, "TMCL", text, silent=True)
 
     def _search_long(self, t: float) -> None:
         text, ago = self._talk.last_heard

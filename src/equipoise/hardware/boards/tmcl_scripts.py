@@ -21,6 +21,7 @@ from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
 
 MARK, BANK, VARIABLE = 0x45515550, 2, 255  # chosen: any number but 0; the last user variable
+CALLED = Request(w.VERSION, w.BINARY, 0)
 OBSERVED = Request(w.GGP, VARIABLE, BANK)
 
 
@@ -66,7 +67,6 @@ class Scripts:
     def step(self, name: str) -> Sequence[Request]:
         """Return the script of a step."""
         scripts: dict[str, Callable[[], Sequence[Request]]] = {
-            "version": lambda: [Request(w.VERSION, w.BINARY, 0)],
             "stop": lambda: [*self.each(w.RFS, w.STOP), *self.each(w.MST)],
             "stopped": lambda: self.each(w.GAP, w.SPEED),
             "settings": lambda: questions(self._board),

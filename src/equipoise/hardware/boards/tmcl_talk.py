@@ -14,6 +14,7 @@ from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.driver_protocol import SILENCE
 from equipoise.model.reading import Counts
 
+CALL = 0.5  # s, attended, chosen: as long as a radio bridge takes there and back
 SHOWN = 9  # bytes, chosen: a reply
 
 
@@ -48,6 +49,17 @@ class Talk:
         """Say a script from now on; what was to be said before is not said any more."""
         self.queue.drop()
         self.queue.put(Command(packed(request), request, SILENCE) for request in script)
+        self.answers = {}
+
+    def call(self, request: Request, shifted: bool) -> None:
+        """Say a request to a module that may be in the middle of a datagram.
+
+        ``shifted``: one byte stands before it, so that another part of it completes what the
+        module has. After as many calls as a datagram has bytes, one has met its beginning.
+        """
+        self.queue.drop()
+        data = (b"\0" if shifted else b"") + packed(request)
+        self.queue.put([Command(data, request, CALL)])
         self.answers = {}
 
     def give_up(self) -> None:

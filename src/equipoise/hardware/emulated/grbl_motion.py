@@ -30,6 +30,7 @@ class Block:
     end: float  # s
     begin: Floats
     to: Floats
+    slowing: bool = False  # it is said to, and goes at its mean speed
 
     def at(self, t: float) -> Floats:
         """Return the place at t s."""
@@ -69,7 +70,10 @@ class Motion:
     def speed(self, t: float) -> float:
         """Return how quick it goes, mm/s."""
         block = self._going(t)
-        return 0.0 if block is None else float(np.linalg.norm(block.velocity))
+        if block is None:
+            return 0.0
+        left = 2 * (block.end - t) / (block.end - block.start) if block.slowing else 1.0
+        return left * float(np.linalg.norm(block.velocity))
 
     def ahead(self, t: float) -> float:
         """Return how far it still goes, mm."""
@@ -111,7 +115,7 @@ class Motion:
         taken = float(np.max(np.abs(velocity) / self._of(120)))
         taken = min(taken, 2 * (block.end - t))
         self._blocks.clear()
-        self._add(Block(t, t + taken, at, at + 0.5 * taken * velocity))
+        self._add(Block(t, t + taken, at, at + 0.5 * taken * velocity, slowing=True))
 
     def resume(self, t: float) -> None:
         """Go on with what a hold left over."""

@@ -110,7 +110,8 @@ class BoardDriver(Tally):
 LEG = 0.25  # s, chosen: what a board does without its computer is over within twice that
 POLL = 0.1  # s, chosen: how often a board is asked where it is while masses stand
 POLL_MOVING = 0.05  # s, the same while they move
-SILENCE = 1.0  # s, attended, chosen: an answer takes a few ms, or 0.25 s over a radio bridge
+POLL_HALTED = 0.02  # s, the same until they surely stand
+SILENCE = 1.5  # s, attended, chosen: an answer takes a few ms, or 0.5 s there and back by radio
 
 
 def driver_named(kinds: Mapping[str, Kind], driver: str, what: str) -> Kind:
