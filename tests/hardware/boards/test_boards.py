@@ -170,7 +170,7 @@ def test_trouble_in_a_way_is_a_fault_in_words_and_ends_with_homing(kind, late, t
     wire.driver.go({"x": 14 * MM, "y": -14 * MM}, wire.t)
     wire.run(late)
     trouble(wire)
-    state = wire.run(1.5, until="fault")
+    state = wire.run(2.0, until="fault")
     assert (state.phase, state.sure) == ("fault", False)
     assert said in state.sentence
     wire.remote.switch(True)
@@ -178,12 +178,12 @@ def test_trouble_in_a_way_is_a_fault_in_words_and_ends_with_homing(kind, late, t
 
 
 @every_board
-def test_a_board_that_is_silent_is_a_fault_within_a_second_and_a_quarter(kind):
+def test_a_board_that_is_silent_is_a_fault_within_two_seconds(kind):
     wire = Wire(kind).at_home()
     wire.driver.go({"x": 14 * MM}, wire.t)
     wire.run(0.6)
     wire.cut = True
-    state = wire.run(1.25)
+    state = wire.run(2.0)
     assert (state.phase, state.sure) == ("fault", False)
     assert "does not answer" in state.sentence
     wire.run(0.5)

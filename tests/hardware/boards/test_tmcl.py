@@ -400,5 +400,5 @@ def test_a_module_that_falls_silent_during_its_settings_query_is_a_fault():
     wire.run(0.1)
     wire.cut = True
     sent = len(wire.sent)
-    assert "does not answer" in wire.run(1.5).sentence
+    assert "does not answer as TMCL" in wire.run(2.0).sentence
     assert len(wire.sent) <= sent + 9
