@@ -150,6 +150,7 @@ class Soak:
         self._go()
         self.wait(self.rng.uniform(0.0, 1.2))
         self.driver.halt(self.t)
+        self.there.put(self.driver.due(self.t), self.t)  # in the same turn, as a keeper does
         halted = self.t
         self._ready("halt", 8.0)
         self.wait(0.3)

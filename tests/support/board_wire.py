@@ -44,6 +44,13 @@ class Wire:
                 self._talk(said)
         return self.driver.state
 
+    def pause(self, seconds):
+        """Let the host do nothing for a while; what the board says meanwhile waits for it."""
+        self.t = round(self.t + seconds, 9)
+        said, legs = self.remote.run(self.t)
+        self.legs += legs
+        self._talk(said)
+
     def _talk(self, said):
         if not self.cut:
             self.driver.feed(said, self.t)

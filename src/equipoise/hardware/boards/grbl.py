@@ -168,7 +168,7 @@ class Grbl(BoardDriver):
 
     def _greeted(self, greeting: Greeting, t: float) -> None:
         phase = self.state.phase
-        if greeting.old:
+        if greeting.old and phase is not Phase.FAULT:
             self._fault(BoardFault.OUTDATED, f"'{greeting.text}'", lost=True)
         elif phase is Phase.CONNECTING or (phase is Phase.READY and not self.state.sure):
             self._talk.queue.drop()  # opening a port may reset it twice

@@ -99,6 +99,7 @@ class GrblMachine(ABC):
         self._ajar = is_open
         if is_open:
             self._flags.add(Flag.DOOR)
+            self._main()
 
     # --- Time --------------------------------------------------------------------------------
 
