@@ -237,11 +237,13 @@ IO = _of(
      "io/columns/test_column_map.py"),
 )  # fmt: skip
 
+CONVERSATION = "hardware/boards/test_grbl_conversation.py"
+SOAK = "hardware/boards/test_board_soak.py"
 HARDWARE = _of(
     "hardware",
     ("links/frame_transform.py", "return values @ unit.alignment.T",
      "return values @ unit.alignment", "hardware/sensors/test_sensors.py"),
-    ("boards/grbl.py", "/ way.duration * MINUTE", "/ way.duration / MINUTE",
+    ("boards/grbl_lines.py", "/ way.duration * MINUTE", "/ way.duration / MINUTE",
      "hardware/boards/test_grbl.py"),
     ("sensors/vectornav.py", "(v[3], v[0], v[1], v[2])", "(v[0], v[1], v[2], v[3])",
      "hardware/sensors/test_sensors.py"),
@@ -249,8 +251,38 @@ HARDWARE = _of(
      "hardware/bench/test_interlocks.py"),
     ("bench/interlocks.py", "if rate <= limits.rate:", "if rate <= 2 * limits.rate:",
      "hardware/bench/test_interlocks.py"),
-    ("transport/line_splitter.py", "if len(self._rest) > LONGEST:",
-     "if len(self._rest) > 1000 * LONGEST:", "hardware/transport/test_line_splitter.py"),
+    ("transport/line_splitter.py", "if len(self.rest) > LONGEST:",
+     "if len(self.rest) > 1000 * LONGEST:", "hardware/transport/test_line_splitter.py"),
+    # The conversation of boards
+    ("transport/command_queue.py", "return None if self._void else done", "return done",
+     "hardware/boards/test_tmcl.py"),
+    ("transport/command_queue.py", "if self.pending is not None or not self._waiting:",
+     "if not self._waiting:", "hardware/boards/test_tmcl.py"),
+    ("transport/attended_time.py", "min(max(t - self._turn, 0.0), LISTENED)", "t - self._turn",
+     CONVERSATION),
+    ("transport/attended_time.py", "min(t, self._turn + LISTENED)", "t", CONVERSATION),
+    ("boards/grbl_talk.py", "elif self.awaiting and not (isinstance", "elif not (isinstance",
+     CONVERSATION),
+    ("boards/grbl_talk.py", "self.asked, self._asked_at = self._open.popleft()",
+     "self.asked, self._asked_at = self._open.pop()", CONVERSATION),
+    ("boards/grbl_halt.py", "Wish.WAIT if slowing(before, status.feed) else Wish.CANCEL",
+     "Wish.CANCEL", CONVERSATION),
+    ("boards/grbl_halt.py", "return self._anew(Wish.HOLD)", "return self._anew(Wish.CANCEL)",
+     CONVERSATION),
+    ("boards/grbl_halt.py", "return Wish.STANDS if synced else Wish.SYNC", "return Wish.STANDS",
+     CONVERSATION),
+    ("boards/grbl.py", "if refused is Step.LEG and code.number == IDLE_ERROR:",
+     "if refused is Step.LEG and code.number == -1:", CONVERSATION),
+    ("boards/grbl.py", "return talk.asked > self._first_idle + NUDGE", "return False",
+     CONVERSATION),
+    ("boards/grbl.py", "if self._talk.asked <= self._changed or", "if", CONVERSATION),
+    ("boards/grbl_watch.py", "if talk.question_waited > SILENCE and not homes:",
+     "if talk.question_waited > SILENCE:", CONVERSATION),
+    ("boards/grbl_watch.py", "talk.queue.overdue and (homes or talk.reported_since_due)",
+     "talk.queue.overdue", SOAK),
+    ("boards/tmcl.py", "if at != self._at or self._commanded:", "if at != self._at:", SOAK),
+    ("boards/tmcl.py", "shifted=self._calls > 0", "shifted=False",
+     "hardware/boards/test_tmcl.py"),
 )  # fmt: skip
 
 APP = _of(

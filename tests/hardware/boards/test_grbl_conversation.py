@@ -12,7 +12,9 @@ import pytest
 from equipoise.hardware.boards.grbl_halt import Halting, Wish
 from equipoise.hardware.boards.grbl_report import MachineState, Status
 from equipoise.hardware.boards.grbl_settings import late_to_stop, longest_homing
+from equipoise.hardware.boards.grbl_talk import GrblTalk
 from equipoise.hardware.boards.registry import BOARDS
+from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.driver_protocol import LEG, Phase
 from equipoise.model.reasons.board_faults import BoardFault, BoardRemark
 from equipoise.model.units import MM
@@ -296,3 +298,35 @@ def test_a_halt_cancels_once_for_a_report_and_not_while_the_board_slows_down():
     assert halting.wish(Status(MachineState.IDLE, feed=0.0), quiet=False) is Wish.WAIT
     assert halting.wish(Status(MachineState.IDLE, feed=0.0), quiet=True) is Wish.SYNC
     assert halting.wish(Status(MachineState.IDLE, feed=0.0), quiet=True) is Wish.STANDS
+
+
+def test_a_report_is_as_old_as_the_oldest_question_that_is_open():
+    """Asked at 0 s and again 0.25 s later: the first report answers the first of them."""
+    talk = GrblTalk(Tally())
+    talk.begin()
+    list(talk.heard(b"Grbl 1.1h ['$' for help]\r\n", 0.0))
+    asked = []
+    for k in range(40):
+        t = round(0.01 * k, 9)
+        talk.clock.turn(t)
+        if b"?" in talk.due(t, 0.1):
+            asked.append(t)
+    assert len(asked) == 2
+    report = b"<Idle|MPos:0.000,0.000,0.000|FS:0,0>\r\n"
+    list(talk.heard(report, 0.4))
+    assert talk.asked == asked[0]
+    list(talk.heard(report, 0.41))
+    assert talk.asked == asked[1]
+    list(talk.heard(report, 0.42))  # nobody asked: it may be as old as the one before
+    assert talk.asked == pytest.approx(0.41)
+
+
+def test_a_report_that_was_asked_for_before_a_halt_says_nothing_of_it():
+    """It says Idle, of before the jog began: no line is sent to see whether masses stand."""
+    wire = Wire("grbl", turn=QUICK).at_home()
+    wire.driver.go({"x": 14 * MM}, wire.t)
+    wire.run(0.1)
+    wire.driver.halt(wire.t)
+    wire.driver.feed(b"<Idle|MPos:-17.000,-17.000,-17.000|FS:0,0>\r\n", wire.t)
+    assert wire.driver.due(wire.t + 1e-3) == b"\x85?"
+    assert wire.driver.state.phase is Phase.HALTED

@@ -402,3 +402,11 @@ def test_a_module_that_falls_silent_during_its_settings_query_is_a_fault():
     sent = len(wire.sent)
     assert "does not answer as TMCL" in wire.run(2.0).sentence
     assert len(wire.sent) <= sent + 9
+
+
+@pytest.mark.parametrize("left", range(1, 9))
+def test_a_module_in_the_middle_of_a_datagram_is_called_until_it_has_met_its_beginning(left):
+    """A plug was pulled while bytes were on their way: some of them are in it still."""
+    wire = Wire("tmcl")
+    wire.remote.board.take(b"\x01\x06\x01\x00\x00\x00\x00\x00"[:left], 0.0)
+    assert wire.run(6.0, until="ready").phase == "ready"
