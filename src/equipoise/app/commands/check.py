@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag
-from equipoise.app.console.terminal import agreed, busy
+from equipoise.app.console.terminal import agreed, busy, stdout
 
 if TYPE_CHECKING:
     from equipoise.app.bench.bench_check import CheckResult
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 STREAMED = 2.0  # s of every sensor, as the usage says
 
 
-def check(testbed: str, /, *, yes: Flag = False) -> int:
+def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
     """Talk to each device of a real bench: boards, sensors, frames; move each mass 1 mm and back.
 
     Masses go home first. Turn the platform a little by hand while the sensors stream, so that the
@@ -23,16 +23,25 @@ def check(testbed: str, /, *, yes: Flag = False) -> int:
         Testbed file with a [hardware] table.
     yes
         Move masses without asking.
+    explain
+        Print the conversation with each device as it happens, both directions, in words.
     """
     from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.bench.bench_check import checked_bench
+    from equipoise.app.bench.emulation import hardware_of
+    from equipoise.app.bench.explained_conversation import Conversations
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.blocks import items
+    from equipoise.hardware.bench.open_port import open_port
+
+    def tell(line: str) -> None:
+        stdout().print(line, markup=False, style="dim", soft_wrap=True)
 
     bed = testbed_from(testbed)
     reported: list[CheckResult] = []
     with busy("talking to the devices", announce=False):
-        steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else agreed)
+        opener = Conversations(hardware_of(bed), tell).opener if explain else open_port
+        steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else agreed, opener)
         for line in steps:
             show(items((line.sentence,), "good" if line.good else "bad"))
             reported.append(line)

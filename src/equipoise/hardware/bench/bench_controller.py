@@ -50,6 +50,7 @@ class BenchState:
     """What whoever commands knows of a bench now."""
 
     trip: Reason | None = None  # why every motor is stopped; None: none is
+    stops: int = 0  # how often every motor was stopped so far
     trouble: Reason | None = None  # what keeps masses from being moved now; None if nothing does
     answered: bool = False  # every board has said how it is
     ready: bool = False  # every board stands and knows where
@@ -70,13 +71,16 @@ class Keeper:
         self._received = RowBuffer(testbed.masses)
         self.t = 0.0
         self.trip: Reason | None = None
+        self._stops = 0
 
     @property
     def state(self) -> BenchState:
         """What is to be known of it now."""
         links, silent = self.links, silence(self._observed(self.t), self._limits)
         trouble = links.unreachable or silent or links.unsure
-        return BenchState(self.trip, trouble, links.answered, links.ready, silent is None)
+        return BenchState(
+            self.trip, self._stops, trouble, links.answered, links.ready, silent is None
+        )
 
     def listen(self, listener: Listener) -> None:
         """Hand all that happens from now on to a listener."""
@@ -187,7 +191,7 @@ class Keeper:
 
     def _stop(self, trip: Reason) -> None:
         self.links.halt(self.t)
-        self.trip = trip
+        self.trip, self._stops = trip, self._stops + 1
         self._warn(trip)
 
     def _warn(self, why: Reason) -> None:

@@ -19,7 +19,7 @@ from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, join
 
 PATIENCE = 30.0  # s, chosen: for a sensor to come back, or a board to be ready
-HOMING = 120.0  # s, chosen: for every mass to find its switch and go home
+HOMING = 1800.0  # s, chosen: each board's driver knows how long its homing may take, and ends it
 
 
 class Clock(Protocol):
@@ -40,7 +40,9 @@ class RealBench:
 
     def __init__(self, keeper: Keeper | DistantKeeper, clock: Clock) -> None:
         self._keeper, self._clock, self.testbed = keeper, clock, keeper.testbed
-        self._reported = keeper.state.trip  # a stop that was reported already
+        self._reported = keeper.state.stops  # those that were reported already
+        hardware = self.testbed.hardware
+        self._senses = hardware is None or bool(hardware.sensors)
 
     @property
     def time(self) -> float:
@@ -72,7 +74,7 @@ class RealBench:
             self._wait()
         found = self._keeper.taken()
         give_up = self.time + PATIENCE
-        while duration > 0 and found.attitude is None and found.rate is None:
+        while duration > 0 and self._senses and found.attitude is None and found.rate is None:
             if self.time > give_up:
                 self._keeper.halt(Reason(Interlock.NO_ROWS, (), {"seconds": PATIENCE}))
             self._wait()
@@ -124,9 +126,7 @@ class RealBench:
     def _turn(self) -> None:
         """Let the keeper take a turn; raise what stopped it, once."""
         self._keeper.turn(self._clock.now)
-        trip = self._keeper.state.trip
-        if trip is not None and trip is not self._reported:
-            self._reported = trip
-            raise BenchStopped(f"every mass was stopped: {trip.sentence}", trip)
-        if trip is None:
-            self._reported = None
+        state = self._keeper.state
+        if state.trip is not None and state.stops > self._reported:
+            self._reported = state.stops
+            raise BenchStopped(f"every mass was stopped: {state.trip.sentence}", state.trip)

@@ -10,7 +10,8 @@ from equipoise.model.hardware import MotorBoard
 from equipoise.model.testbed import SlidingMass
 from equipoise.model.units import MINUTE, MM
 
-IDLE_DELAY, DEBOUNCE, PULL_OFF = 25.0, 250.0, 1.0  # ms, ms, mm: $1, $26 and $27 as delivered
+IDLE_DELAY, PULL_OFF = 25.0, 1.0  # ms, mm: $1 and $27 as delivered
+DEBOUNCE = 25.0  # ms, chosen: for optical switches; 250 as delivered
 SLOWLY = 100.0  # mm/min, chosen: how a switch is found exactly
 STOPS_WITHIN = 0.05  # s, chosen: half of what the driver wants
 WHOLE = (0, 1, 2, 3, 4, 5, 6, 10, 13, 20, 21, 22, 23, 26, 30, 31, 32)  # printed without decimals
