@@ -101,7 +101,10 @@ class Soak:
                 self.back.put(said, self.t)
         if self.plugged:
             self.driver.feed(self.back.arrived(self.t), self.t)
-            self.there.put(self.driver.due(self.t), self.t)
+            self._send()
+
+    def _send(self):
+        self.there.put(self.driver.due(self.t), self.t)
 
     def _lead(self, legs):
         for leg in legs:
@@ -150,7 +153,7 @@ class Soak:
         self._go()
         self.wait(self.rng.uniform(0.0, 1.2))
         self.driver.halt(self.t)
-        self.there.put(self.driver.due(self.t), self.t)  # in the same turn, as a keeper does
+        self._send()  # in the same turn, as a keeper does
         halted = self.t
         self._ready("halt", 8.0)
         self.wait(0.3)

@@ -14,6 +14,7 @@ from equipoise.app.bench.held_platform import HeldPlatform, later
 from equipoise.hardware.emulated.counterpart import Counterpart, counterpart
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor, Leg
 from equipoise.hardware.emulated.registry import SENSORS, emulated_board
+from equipoise.hardware.emulated.serial_line import SerialLine
 from equipoise.hardware.transport.driver_protocol import driver_named
 from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Quaternion
@@ -34,6 +35,14 @@ class Station(Generic[Device]):
 
     device: Device
     wire: Counterpart
+    line: SerialLine | None = None  # that its messages go over; None: they are there at once
+
+    def say(self, data: bytes, t: float) -> None:
+        """Send what the device has said by t s, as quick as its line is."""
+        if self.line is not None:
+            self.line.put(data, t)
+            data = b"".join(byte for _, byte in self.line.arrived(t))
+        self.wire.send(data)
 
 
 class EmulatedBench:
@@ -72,7 +81,9 @@ class EmulatedBench:
             self._observed = (self.time, rows.attitude.values[-1])
         for station in self.sensors:
             for message in station.device.messages(rows):
-                station.wire.send(message)
+                station.say(message, t)
+            if station.line is not None:
+                station.say(b"", t)
 
     def catch(self) -> None:
         """Lead the platform back and hold it, until every mass has been away and come home."""
@@ -105,7 +116,7 @@ class EmulatedBench:
         for station in (*self.boards, *self.sensors):
             data = station.wire.receive()
             if data:
-                station.wire.send(station.device.take(data, self.time))
+                station.say(station.device.take(data, self.time), self.time)
 
     def _ran(self, station: Station[EmulatedBoard], t: float) -> Sequence[Leg]:
         said, legs = station.device.run(t)
@@ -159,7 +170,11 @@ def emulate(testbed: Testbed, seed: int) -> EmulatedBench:
         for board in hardware.boards
     ]
     sensors = [
-        Station(driver_named(SENSORS, unit.driver, "sensor")(unit), counterpart(unit.port))
+        Station(
+            driver_named(SENSORS, unit.driver, "sensor")(unit),
+            counterpart(unit.port),
+            SerialLine(unit.port.baud) if unit.port.address.startswith("serial:") else None,
+        )
         for unit in hardware.sensors
     ]
     return EmulatedBench(partial(SimulatedBench, testbed, seed), boards, sensors)
