@@ -216,7 +216,10 @@ def test_a_sensor_that_is_hidden_for_ten_seconds_is_waited_for():
         found.bench.move({"x": 2 * MM})
         assert 10 < found.emulated.time - begun < 11
         said = [sentence for _, kind, sentence in found.events if kind == "interlock"]
-        assert said == ["sensor imu is silent", "sensor imu gives rows again"]
+        assert said == [
+            "sensor imu gives no row of attitude",
+            "sensor imu gives rows of attitude again",
+        ]
         assert found.bench.read(1.0).masses.values[-1, 0] == pytest.approx(2 * MM, abs=2e-6)
 
 

@@ -31,12 +31,15 @@ class DeviceClock:
     jumps: int = 0
 
 
-def learnt(clock: DeviceClock, stamp: float, arrival: float) -> DeviceClock:
-    """Return the clock with one more row."""
+def learnt(clock: DeviceClock, stamp: float, arrival: float, waited: float = 0.0) -> DeviceClock:
+    """Return the clock with one more row.
+
+    ``waited``: s, for how long it may have lain before somebody read it.
+    """
     if not clock.quickest:
         return _begun(clock, stamp, arrival)
     late = arrival - to_bench(clock, stamp)
-    if stamp < clock.last or not -EARLY <= late <= LATE:
+    if stamp < clock.last or not -EARLY <= late <= LATE + waited:
         unsettled = -LATE <= late < 0 and len(clock.quickest) == 1
         return replace(_begun(clock, stamp, arrival), jumps=clock.jumps + (not unsettled))
     if stamp >= clock.span_end:

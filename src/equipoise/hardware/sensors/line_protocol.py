@@ -39,12 +39,16 @@ Numbers = dict[str, float]
 
 
 class LineProtocol(SensorDriver):
-    """The conversation; settings: ``format``, ``columns``, and a line to ``send`` at opening."""
+    """The conversation; settings: ``format``, ``columns``, and a line to ``send`` at opening.
+
+    It is sent again until there is a row: a board that begins anew when its port is opened does not
+    hear what is sent at once.
+    """
 
     def __init__(self, unit: SensorUnit) -> None:
         settings = Settings(unit, KEYS)
-        greeting = settings.text("send").encode()
-        super().__init__(greeting + b"\n" if greeting else b"")
+        self._send = settings.text("send")
+        super().__init__({self._send: self._send.encode() + b"\n"} if self._send else {})
         form = settings.text("format", "csv", FORMATS)
         declared = [_declared(column) for column in settings.names("columns")]
         self._columns = columns_of(unit, settings, [name for name, _ in declared])
@@ -76,7 +80,10 @@ class LineProtocol(SensorDriver):
         row = self._read(line)
         if row == {}:
             return self.counted(None)
-        return self.counted([] if row is None else self._columns.readings(row))
+        readings = [] if row is None else self._columns.readings(row)
+        if readings:
+            self.requests.confirmed(self._send)
+        return self.counted(readings)
 
 
 class _Csv:
