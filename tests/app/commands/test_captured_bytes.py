@@ -197,7 +197,7 @@ def test_missing_numbers_leave_their_places(equipoise, tmp_path):
     np.testing.assert_allclose(found.t, [0, 0.02, 0.08, 0.1], atol=1e-9)
 
 
-def test_objects_and_the_part_that_is_asked_for(equipoise, tmp_path):
+def test_objects_and_a_part_of_the_rows(equipoise, tmp_path):
     """JSON; of 100 rows, 10 ms apart, those from 0.495 s on."""
     content = b"\n" + b"".join(
         b'{"t_us": %d, "w": {"gx_rad_s": %d, "gy_rad_s": 1, "gz_rad_s": 0}}\n' % (10_000 * k, k)

@@ -96,7 +96,7 @@ def test_a_device_that_was_without_power_gets_its_settings_when_it_has_some():
     assert driver.due(5.0) == b""
 
 
-def test_a_device_that_has_forgotten_its_message_is_asked_again():
+def test_a_device_that_has_forgotten_its_message_gets_it_again():
     """It was switched off and on behind a port that stayed open: another message comes."""
     driver = VectorNav(unit("vectornav", message="VNQMR"))
     driver.due(0.0)

@@ -6,6 +6,7 @@ The driver is the one of the bench, and so is what times and turns its rows.
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from os import SEEK_CUR, SEEK_END
 from typing import BinaryIO
 
 from equipoise.app.runs.captured_sensor import STREAM
@@ -102,7 +103,7 @@ def recording_of_capture(
 ) -> Recording:
     """Return the rows in a file of saved bytes, with notes of what was broken or left out."""
     with open_bytes(file, WANTED) as content:
-        size = content.seek(0, 2)
+        size = content.seek(0, SEEK_END)
         content.seek(0)
         beginning = content.read(CHUNK)
         content.seek(0)
@@ -110,9 +111,10 @@ def recording_of_capture(
         shown = 0
         for piece in _pieces(content, beginning, unit):
             capture.take(piece)
-            if content.tell() - shown > CHUNK:
-                shown = content.tell()
-                reported(shown / size)
+            at = content.seek(0, SEEK_CUR)
+            if at - shown > CHUNK:
+                shown = at
+                reported(at / size)
     return capture.recording()
 
 
