@@ -84,8 +84,8 @@ def test_network_traffic_gives_the_datagrams_of_motives_port(equipoise, tmp_path
         (UTC + STEP * k + 1e-3 * (k % 3), datagram_packet(frame, 1511))
         for k, frame in enumerate(messages("natnet", rows))
     ]
-    fragment = bytearray(datagram_packet(b"part", 1511))
-    fragment[20] |= 0x20  # more fragments follow
+    fragment = bytearray(datagram_packet(b"part", 9999))
+    fragment[21] = 4  # it begins at byte 32 of the datagram, so these are no ports
     packets.insert(9, (UTC + 0.17, datagram_packet(b"query", 53)))
     packets.insert(20, (UTC + 0.37, bytes(12) + b"\x08\x06" + bytes(28)))
     packets.insert(30, (UTC + 0.55, bytes(fragment)))

@@ -1,6 +1,6 @@
 """Rows of bytes that were saved: the link of a sensor without its port.
 
-Times count from the first row. Where the capture says when bytes arrived, rows are timed as on the
+Times count from where the file begins. Where the capture says when bytes arrived, rows are timed as on the
 bench. Where only the device stamps its rows, a row arrives when its stamp says, and after a clock
 that went back a step after the row before. Where there is neither, rows are spaced evenly; a row
 that its number, or a broken message, shows to be missing leaves its place.
@@ -45,23 +45,19 @@ class CapturedRows:
         if t is not None:
             self._now = self._arrival(t)
             return self.received.rows(readings, self._now)
+        if self.spaced and self._number is None:
+            self._now += broken * (self._step or 0.0)
         rows: list[Row] = []
         channels: set[Gives] = set()
         for reading in readings:
             if reading.stamp is not None:
                 self._now = max(self._now, self._stamped(reading.channel, reading.stamp))
             elif not channels or reading.channel in channels:
-                self._now += self._spaced(reading.number, broken)
-                channels, broken = set(), 0
+                self._now += self._spaced(reading.number)
+                channels = set()
             channels.add(reading.channel)
             rows += self.received.rows([reading], self._now)
-        if not readings and self._step is not None and self._begun and self._number is None:
-            self._now += broken * self._step
         return rows
-
-    @property
-    def _begun(self) -> bool:
-        return self.received.arrivals.kept > 0
 
     def _arrival(self, t: float) -> float:
         """Return the time of a capture's: from zero on, and never back."""
@@ -85,15 +81,13 @@ class CapturedRows:
         self._ahead[channel] = stamp - clock.last
         return to_bench(clock, stamp)
 
-    def _spaced(self, number: int | None, broken: int) -> float:
+    def _spaced(self, number: int | None) -> float:
         """Return how long after the row before the next one is, s."""
         if self._step is None:
             raise Timeless
-        self.spaced = True
         last, self._number = self._number, number
-        if not self._begun:
+        begun, self.spaced = self.spaced, True
+        if not begun:
             return 0.0
-        if number is None or last is None:
-            return (1 + broken) * self._step
-        ahead = number - last
+        ahead = 1 if number is None or last is None else number - last
         return (ahead if 0 <= ahead <= SKIPPED else 1) * self._step
