@@ -1,9 +1,9 @@
 """Rows of bytes that were saved: the link of a sensor without its port.
 
-Times count from where the file begins. Where the capture says when bytes arrived, rows are timed as on the
-bench. Where only the device stamps its rows, a row arrives when its stamp says, and after a clock
-that went back a step after the row before. Where there is neither, rows are spaced evenly; a row
-that its number, or a broken message, shows to be missing leaves its place.
+Times count from where the file begins. Where the capture says when bytes arrived, rows are timed as
+on the bench. Where only the device stamps its rows, a row arrives when its stamp says, and after a
+clock that went back a step after the row before. Where there is neither, rows are spaced evenly; a
+row that its number, or a broken message, shows to be missing leaves its place.
 """
 
 from collections.abc import Sequence
