@@ -8,7 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from equipoise.app.runs.captured_bytes import recording_of_capture
 from equipoise.hardware.camera.eye import eye_of
+from equipoise.hardware.emulated.registry import SENSORS
 from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.documents.camera_file import read_camera_keys
 from equipoise.io.documents.manual_session import Piles, read_session
@@ -19,10 +21,11 @@ from equipoise.io.recording.recording_file import read_recording, write_recordin
 from equipoise.io.testbed.presets import preset_text, read_preset
 from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.errors import InputError
-from equipoise.model.recording import CHANNELS
+from equipoise.model.recording import CHANNELS, Recording, Samples
+from tests.support.byte_captures import datagram_packet, pcap, pcapng, telemetry
 from tests.support.fuzz_target import Target
 from tests.support.sample_logs import IMU, bag_1, bag_2_file, record, ulog
-from tests.support.sensor_units import CAMERA
+from tests.support.sensor_units import CAMERA, unit
 
 SHARE_OF_LIBRARIES = 0.02  # rosbags, pyarrow and SQLite take long to begin, and are others' to test
 
@@ -40,6 +43,11 @@ name = "x1"
 column = "x1_mm"
 unit = "mm"
 """
+TIMES = 0.02 * np.arange(3)
+THREE = Recording(
+    Samples(TIMES, np.tile([1.0, 0.0, 0.0, 0.0], (3, 1))),
+    Samples(TIMES, np.outer(TIMES, [1.0, 2.0, 3.0])),
+)
 SESSION = """
 testbed = "weights-by-hand"
 target_um = [0, 0, -100]
@@ -166,6 +174,33 @@ def keys(table: dict[str, float]) -> bytes:
 
 MESSAGE = bytes.fromhex("0a0208011500000000190000000000000000")  # one field of each wire type
 
+
+def captured(driver: str) -> Callable[[Path], None]:
+    """Return what a driver does with a file of saved bytes: times rise, numbers are finite."""
+
+    def read(path: Path) -> None:
+        found = recording_of_capture(str(path), unit(driver), None, lambda _share: None)
+        assert found.attitude is not None or found.rate is not None
+        for channel in (found.attitude, found.rate):
+            if channel is not None:
+                assert np.all(np.diff(channel.t) > 0)
+                assert np.all(np.isfinite(channel.values))
+
+    return read
+
+
+def traffic(form: Callable[[list[tuple[float, bytes]]], bytes]) -> bytes:
+    """Return three frames of Motive as network traffic."""
+    frames = SENSORS["natnet"](unit("natnet")).messages(THREE)
+    return form([(1.7e9 + 0.02 * k, datagram_packet(each, 1511)) for k, each in enumerate(frames)])
+
+
+def flight() -> bytes:
+    """Return a telemetry log of three rows of each channel."""
+    frames = SENSORS["mavlink"](unit("mavlink")).messages(THREE)
+    return telemetry([(1.7e9 + 0.01 * k, each) for k, each in enumerate(frames)])
+
+
 TARGETS = (
     Target("CSV", written(".csv"), at(".csv", recording)),
     Target("MCAP", written(".mcap"), at(".mcap", mcap)),
@@ -181,5 +216,13 @@ TARGETS = (
     Target("plan", PLAN.encode, at(".toml", plan)),
     Target("column map", MAP.encode, at(".toml", read_column_map)),
     Target("session", SESSION.encode, at(".toml", session)),
+    *(
+        Target(name, made, at(".bin", captured(driver)))
+        for name, driver, made in (
+            ("pcap", "natnet", functools.partial(traffic, pcap)),
+            ("pcapng", "natnet", functools.partial(traffic, pcapng)),
+            ("telemetry log", "mavlink", flight),
+        )
+    ),
     Target("camera", lambda: keys(CAMERA), at(".toml", camera)),
 )

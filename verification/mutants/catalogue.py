@@ -233,6 +233,10 @@ IO = _of(
      "io/testbed/test_bad_input.py"),
     ("testbed/inertia_check.py", "if smallest_second_moment(inertia) <= 0:",
      "if smallest_second_moment(inertia) <= -1e9:", "io/testbed/test_bad_input.py"),
+    ("formats/tlog_capture.py", "skipped, at = skipped + 1, at + 1", "break",
+     "app/commands/test_captured_bytes.py"),
+    ("formats/pcap_capture.py", "fragment & FRAGMENT or len(udp) < 8", "len(udp) < 8",
+     "app/commands/test_captured_bytes.py"),
     ("columns/axis_permutation.py", '-1.0 if axis.startswith("-") else 1.0', "1.0",
      "io/columns/test_column_map.py"),
 )  # fmt: skip
@@ -283,6 +287,21 @@ HARDWARE = _of(
     ("boards/tmcl.py", "if at != self._at or self._commanded:", "if at != self._at:", SOAK),
     ("boards/tmcl.py", "shifted=self._calls > 0", "shifted=False",
      "hardware/boards/test_tmcl.py"),
+    ("transport/requests.py", "request.times and now - request.since > PATIENCE", "False",
+     "hardware/transport/test_requests.py"),
+    ("transport/requests.py", "self._following[name] = t + self._again",
+     "self._following[name] = float('inf')", "hardware/transport/test_requests.py"),
+    ("sensors/mavlink.py", "self._void, self._sent = max(self._sent - 1, 0), 0",
+     "self._void, self._sent = 0, 0", "hardware/sensors/test_mavlink.py"),
+    ("links/sensor_link.py", "self._came |= {row.channel: self._clock.now for row in rows}",
+     "self._came |= dict.fromkeys(self._came, self._clock.now) if rows else {}",
+     "hardware/links/test_sensor_link.py"),
+    ("links/clock_sync.py", "late <= LATE + waited", "late <= LATE",
+     "hardware/links/test_sensor_link.py"),
+    ("links/captured_rows.py", "self._now += broken * (self._step or 0.0)", "pass",
+     "app/commands/test_captured_bytes.py"),
+    ("links/captured_rows.py", "if stamp < clock.last:", "if stamp < 0 * clock.last:",
+     "app/commands/test_captured_bytes.py"),
 )  # fmt: skip
 
 APP = _of(

@@ -33,7 +33,9 @@ def board(phase="ready", at=0.0, goal=0.0, sure=True):
     return BoardState(Phase(phase), fault, {"x": at}, {"x": goal}, 10.0, sure)
 
 
-CALM = Observed(10.0, attitudes(1, 2, 3), rates(1, 1, 1), {"imu": 0.1}, {"masses": board()})
+CALM = Observed(
+    10.0, attitudes(1, 2, 3), rates(1, 1, 1), {("imu", "attitude"): 0.1}, {"masses": board()}
+)
 
 
 def kind(**changes):
@@ -69,10 +71,10 @@ def test_without_a_gyro_the_rate_is_that_of_the_attitudes():
 
 
 def test_a_silent_sensor_stops_moving_masses_and_is_only_reported_at_rest():
-    quiet = {"imu": 0.6}
+    quiet = {("imu", "rate"): 0.6}
     assert kind(silent=quiet) is None
     assert silence(replace(CALM, silent=quiet), LIMITS).sentence == (
-        "sensor imu has given no row for 0.6 s"
+        "sensor imu has given no row of rate for 0.6 s"
     )
     assert kind(silent=quiet, boards={"masses": board("moving", goal=5e-3)}) == "silence"
 

@@ -92,6 +92,17 @@ def test_a_line_whose_beginning_was_missed_is_no_row():
     assert driver.counts.corrupt == 0
 
 
+def test_a_line_is_sent_until_there_is_a_row():
+    """A board that begins anew when its port is opened does not receive what is sent at once."""
+    driver = LineProtocol(unit("lines", columns=ROW, send="start"))
+    driver.opened()
+    assert [driver.due(t) for t in (0.0, 0.9, 1.0)] == [b"start\n", b"", b"start\n"]
+    driver.feed(b"BNO055 ready\n12365,1,0,0,0,0,0\n")
+    assert driver.due(2.0) == b"start\n"
+    driver.feed(b"12365,1,0,0,0,0,0,0\n")
+    assert driver.due(3.0) == b""
+
+
 @pytest.mark.parametrize("address", ["udp:5005", "ws://esp32/imu"])
 def test_a_datagram_is_a_whole_line_with_an_end_or_without(address):
     driver = LineProtocol(over(address, columns=ROW))

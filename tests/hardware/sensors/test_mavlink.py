@@ -115,7 +115,22 @@ def test_what_is_no_row_is_counted():
     assert len(driver.feed(b"junk" + good)) == 1
 
 
-def test_it_sends_heartbeats_and_requests_until_it_is_answered():
+BEAT = frame(0, 50, struct.pack("<IBBBBB", 0, 2, 12, 0, 4, 3))  # of a vehicle
+ACCEPTED, DENIED, IN_PROGRESS = 0, 2, 5
+
+
+def acknowledged(result, command=511, station=255):
+    """Return COMMAND_ACK, whose CRC_EXTRA is 143: command, result, then who it is for."""
+    return frame(77, 143, struct.pack("<HBBiBB", command, result, 0, 0, station, 190))
+
+
+def requested(data):
+    """Return which messages are asked for, and how many microseconds apart."""
+    said = common.MAVLink(None).parse_buffer(data) or []
+    return [(m.param1, m.param2) for m in said if m.get_type() == "COMMAND_LONG"]
+
+
+def test_it_sends_heartbeats_and_requests_until_each_is_accepted():
     """MAV_CMD_SET_MESSAGE_INTERVAL is 511: message, microseconds; 50 Hz are 20 000."""
     device = unit("mavlink", rate_hz=50.0)
     driver, remote = Mavlink(device), EmulatedMavlink(device)
@@ -125,13 +140,42 @@ def test_it_sends_heartbeats_and_requests_until_it_is_answered():
     assert (beat.get_type(), beat.type, beat.autopilot) == ("HEARTBEAT", 6, 8)
     assert driver.due(0.99) == b""
     assert remote.take(first, 0.0) == b""  # no vehicle yet, so nothing is asked for
-    driver.feed(frame(0, 50, struct.pack("<IBBBBB", 0, 2, 12, 0, 4, 3)))
+    driver.feed(BEAT)
     answer = remote.take(driver.due(1.0), 1.0)
+    assert remote.requested == {31: 20000.0}
+    driver.feed(answer)
+    driver.feed(remote.take(driver.due(1.01), 1.01))
     assert remote.requested == {31: 20000.0, 105: 20000.0}
     kinds = [m.get_type() for m in common.MAVLink(None).parse_buffer(driver.due(2.0))]
-    assert kinds == ["HEARTBEAT", "COMMAND_LONG", "COMMAND_LONG"]
-    driver.feed(answer)
-    assert len(common.MAVLink(None).parse_buffer(driver.due(3.0))) == 1
+    assert kinds == ["HEARTBEAT"]
+
+
+def test_an_acknowledgement_is_credited_to_its_own_request():
+    """The first is sent three times: of its three answers one counts, the others are void."""
+    driver = Mavlink(unit("mavlink", rate_hz=50.0))
+    driver.feed(BEAT)
+    for t in (0.0, 1.0, 2.0):
+        assert requested(driver.due(t)) == [(31.0, 20000.0)]
+    driver.feed(acknowledged(ACCEPTED, command=400) + acknowledged(ACCEPTED, station=254))
+    assert driver.requests.first == "the interval of ATTITUDE_QUATERNION"
+    driver.feed(acknowledged(ACCEPTED))
+    assert requested(driver.due(2.01)) == [(105.0, 20000.0)]
+    driver.feed(acknowledged(ACCEPTED) + acknowledged(ACCEPTED))
+    assert driver.requests.first == "the interval of HIGHRES_IMU"
+    driver.feed(acknowledged(IN_PROGRESS))
+    assert driver.requests.first == "the interval of HIGHRES_IMU"
+    driver.feed(acknowledged(ACCEPTED))
+    assert driver.requests.first is None
+
+
+def test_a_refusal_is_no_confirmation_and_is_reported():
+    driver = Mavlink(replace(unit("mavlink", rate_hz=50.0), gives=("attitude",)))
+    driver.feed(BEAT)
+    for k in range(80):
+        if requested(driver.due(0.05 * k)):
+            driver.feed(acknowledged(DENIED))
+    (overdue,) = driver.requests.overdue
+    assert (overdue.times, overdue.answer) == (4, "MAV_RESULT_DENIED")
 
 
 class Wire:

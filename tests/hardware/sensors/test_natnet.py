@@ -121,16 +121,30 @@ def test_a_body_is_found_by_its_name():
     assert hello == b"\x00\x00\x05\x00Ping\x00"
     assert driver.feed(motive.messages(rows)[0]) == []
     driver.feed(motive.take(hello, 0.0))
-    assert driver.due(0.5) == b""
-    request = driver.due(1.0)
+    request = driver.due(0.5)
     assert request == b"\x04\x00\x01\x00\x00"
-    driver.feed(motive.take(request, 1.0))
+    assert driver.due(1.0) == b"\x0a\x00\x01\x00\x00"
+    assert driver.due(1.5) == request
+    driver.feed(motive.take(request, 1.5))
     assert driver.due(2.0) == b"\x0a\x00\x01\x00\x00"
     (row,) = driver.feed(motive.messages(rows)[0])
     assert row.values == pytest.approx((HALF, 0, HALF, 0), abs=1e-7)
     assert driver.due(3.0) == b"\x0a\x00\x01\x00\x00"
     assert driver.due(4.0) == hello  # nothing has come for a second: Motive began anew
     assert NatNet(unit("natnet")).due(0.0) == b""
+
+
+def test_a_body_that_motive_does_not_have_is_reported_with_those_it_has():
+    """It is asked for again, since it may be made later."""
+    port = Port("udpout:motive:1510")
+    driver = NatNet(replace(unit("natnet", "z_up", body="cube"), port=port))
+    motive = EmulatedNatNet(replace(unit("natnet", "z_up", body="plate"), port=port))
+    for k in range(60):
+        driver.feed(motive.take(driver.due(0.05 * k), 0.05 * k))
+    (overdue,) = driver.requests.overdue
+    assert overdue.what == "the rigid body 'cube'"
+    assert overdue.answer == "rigid bodies still, plate"
+    assert overdue.times == 3
 
 
 @pytest.mark.parametrize(

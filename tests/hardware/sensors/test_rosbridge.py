@@ -82,8 +82,8 @@ def test_attitude_and_rate_may_come_from_two_topics():
     driver = RosBridge(two_topics())
     requested = [json.loads(line) for line in driver.due(0.0).splitlines()]
     assert requested == [
-        {"op": "subscribe", "topic": "/mocap/pose", "type": POSE},
-        {"op": "subscribe", "topic": "/imu", "type": "sensor_msgs/msg/Imu"},
+        {"op": "subscribe", "id": "/mocap/pose", "topic": "/mocap/pose", "type": POSE},
+        {"op": "subscribe", "id": "/imu", "topic": "/imu", "type": "sensor_msgs/msg/Imu"},
     ]
     assert driver.due(0.1) == b""
     pose = {"position": vector(1, 2, 3), "orientation": vector(0, 0, 1) | {"w": 0}}
@@ -93,6 +93,19 @@ def test_attitude_and_rate_may_come_from_two_topics():
     assert rate.channel == "rate"
     driver.opened()
     assert len(driver.due(1.0).splitlines()) == 2
+
+
+def test_a_topic_is_subscribed_to_until_it_comes_and_an_error_is_reported():
+    driver = RosBridge(two_topics())
+    for k in range(60):
+        driver.due(0.05 * k)
+        driver.feed(published(imu()))
+    error = {"op": "status", "level": "error", "id": "/mocap/pose", "msg": "no such type"}
+    driver.feed(json.dumps(error).encode())
+    (overdue,) = driver.requests.overdue
+    assert (overdue.what, overdue.times, overdue.answer) == ("/mocap/pose", 3, "no such type")
+    driver.feed(json.dumps(error | {"id": ["?"]}).encode())
+    assert driver.counts.corrupt == 0
 
 
 def test_what_is_no_row_is_counted():

@@ -71,7 +71,7 @@ def test_what_is_broken_is_counted_and_never_a_row():
     assert len(driver.feed(b"rest of a line" + good)) == 1
 
 
-def test_it_requests_its_message_once():
+def test_it_requests_its_message_and_rate():
     driver = VectorNav(unit("vectornav", message="VNQMR", rate_hz=40.0))
     driver.opened()
     assert driver.due(0.0) == line("VNWRG,06,8") + line("VNWRG,07,40")
@@ -80,6 +80,39 @@ def test_it_requests_its_message_once():
         VectorNav(unit("vectornav", message="VNXXX"))
     with pytest.raises(InputError, match="rate_hz"):
         VectorNav(unit("vectornav", rate=40.0))
+
+
+def test_a_device_that_was_without_power_gets_its_settings_when_it_has_some():
+    """Each is sent again until the device repeats it; VNERR is no confirmation."""
+    driver = VectorNav(unit("vectornav", message="VNQMR", rate_hz=40.0))
+    driver.opened()
+    both = line("VNWRG,06,8") + line("VNWRG,07,40")
+    assert [driver.due(t) for t in (0.0, 0.5, 1.0, 2.0)] == [both, b"", both, both]
+    driver.feed(line("VNWRG,6,8") + line("VNERR,03"))
+    assert driver.due(3.0) == line("VNWRG,07,40")
+    driver.feed(line("VNWRG,07,50"))
+    assert driver.due(4.0) == line("VNWRG,07,40")
+    driver.feed(line("VNWRG,07,40"))
+    assert driver.due(5.0) == b""
+
+
+def test_a_device_that_has_forgotten_its_message_gets_it_again():
+    """It was switched off and on behind a port that stayed open: another message comes."""
+    driver = VectorNav(unit("vectornav", message="VNQMR"))
+    driver.due(0.0)
+    driver.feed(line("VNQMR,0,0,0,1,1,0,0,0,0,-9.8,0.1,0.2,0.3"))
+    assert driver.due(5.0) == b""
+    driver.feed(line("VNYPR,+090.000,+000.000,+000.000"))
+    assert driver.due(5.1) == line("VNWRG,06,8")
+    driver.feed(line("VNYPR,+090.000,+000.000,+000.000"))
+    assert driver.due(5.2) == b""
+
+
+def test_text_of_a_terminal_is_of_another_kind_and_no_broken_message():
+    """A message begins with $ and ends with * and its checksum; a prompt has neither."""
+    driver = VectorNav(unit("vectornav"))
+    assert driver.feed(b"> connected to COM3\r\n" + line("VNGYR,1,2,3")) != []
+    assert (driver.counts.foreign, driver.counts.corrupt) == (1, 0)
 
 
 def test_frames_by_hand():

@@ -1,20 +1,65 @@
-"""`equipoise convert`: a recording from one format into another."""
+"""`equipoise convert`: a recording from one format, or a sensor's saved bytes, into another."""
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
 
 from equipoise.app.arguments.options import WHOLE, Reading
-from equipoise.app.console.terminal import show_paths
+from equipoise.app.console.terminal import counted, show_paths
+
+if TYPE_CHECKING:
+    from equipoise.model.hardware import Setting
+    from equipoise.model.recording import Recording
 
 
-def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
-    """Read a recording of any known format, and write it in another.
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
+class Captured:
+    """How bytes of a sensor are read, as they came over its wire.
+
+    Attributes
+    ----------
+    driver
+        The file holds a sensor's bytes: lines, vectornav, mavlink or natnet. Of lines, --columns
+        are the columns' names with commas between.
+    testbed
+        Testbed file whose sensor with this driver has the settings and the alignment; the options
+        below go before.
+    form
+        Of lines: csv or json.
+    body
+        Of natnet: the rigid body's streaming id, or its name.
+    laboratory
+        Frame of the attitude: ned, z_up or y_up. Left out: as is usual with the driver.
+    rate_hz
+        At which rows came, where neither they nor the file have a time.
+    """
+
+    driver: Annotated[str | None, Parameter(name="--as")] = None
+    testbed: str | None = None
+    form: Annotated[str | None, Parameter(name="--format")] = None
+    body: str | None = None
+    laboratory: str | None = None
+    rate_hz: float | None = None
+
+
+NOT_CAPTURED = Captured()
+
+
+def convert(
+    file: str, out: Path, /, *, reading: Reading = WHOLE, captured: Captured = NOT_CAPTURED
+) -> int:
+    """Read a recording of any known format, or the saved bytes of a sensor, and write it.
 
     Lines with '~' say what was set right or left aside. Events stay in the file that has them.
 
     Parameters
     ----------
     file
-        Recording: CSV, Parquet, MCAP, MAT, a bag of ROS 1 or 2, or a log of PX4 (ULog).
+        Recording: CSV, Parquet, MCAP, MAT, a bag of ROS 1 or 2, or a log of PX4 (ULog). With --as:
+        a terminal's log, a log of MAVLink (.tlog), or network traffic (.pcap, .pcapng).
     out
         File to write: .csv, .parquet, .mcap or .mat.
     """
@@ -24,11 +69,49 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.format_registry import format_to_write
     from equipoise.io.recording.recording_file import write_recording
+    from equipoise.model.errors import InputError
 
     format_to_write(out)  # refuses a suffix before anything is read
     check_writable(out)
-    recording = recording_of(file, reading)
+    if captured.driver is not None:
+        recording = _replayed(file, captured.driver, captured, reading)
+    elif captured != NOT_CAPTURED:
+        raise InputError("--as", "nothing", "the driver of the sensor whose bytes the file holds")
+    else:
+        recording = recording_of(file, reading)
     write_recording(recording, out)
     show(items((*recording.notes, *recording.gaps), "quiet"))
     show_paths([out])
     return 0
+
+
+def _replayed(file: str, driver: str, captured: Captured, reading: Reading) -> "Recording":
+    """Return the rows that a driver reads in a file, or the part that is asked for."""
+    from equipoise.app.arguments.checks import positive
+    from equipoise.app.arguments.inputs import part_of, testbed_from
+    from equipoise.app.runs.captured_bytes import recording_of_capture
+    from equipoise.app.runs.captured_sensor import Stated, unit_of
+    from equipoise.model.errors import InputError
+
+    if reading.dialect is not None:
+        raise InputError("--dialect and --as", "both", "one of them")
+    rate = positive("--rate-hz", captured.rate_hz)
+    bed = None if captured.testbed is None else testbed_from(captured.testbed)
+    stated = Stated(captured.laboratory, _settings(captured, reading))
+    unit = unit_of(driver, bed, stated)
+    with counted("reading") as on_progress:
+        recording = recording_of_capture(file, unit, rate, on_progress)
+    whole = reading.from_s is None and reading.to_s is None
+    return recording if whole else part_of(recording, reading.from_s, reading.to_s)
+
+
+def _settings(captured: Captured, reading: Reading) -> "dict[str, Setting]":
+    """Return the driver's settings that were given as options."""
+    found: dict[str, Setting] = {}
+    if reading.columns is not None:
+        found["columns"] = tuple(reading.columns.replace(",", " ").split())
+    if captured.form is not None:
+        found["format"] = captured.form
+    if captured.body is not None:
+        found["body"] = float(captured.body) if captured.body.isdecimal() else captured.body
+    return found

@@ -67,7 +67,7 @@ class Keeper:
         self._attitudes: list[tuple[float, Floats]] = []
         self._rates: list[tuple[float, Floats]] = []
         self._before: dict[str, tuple[float, float]] = {}
-        self._silent = ""
+        self._silent: tuple[str, ...] = ()  # sensor and channel
         self._received = RowBuffer(testbed.masses)
         self.t = 0.0
         self.trip: Reason | None = None
@@ -169,15 +169,15 @@ class Keeper:
         if found is not None and (self.trip is None or self.trip.code is not found.code):
             self._stop(found)
         quiet = silence(observed, self._limits)
-        silent = "" if quiet is None else quiet.parameters[0]
+        silent = () if quiet is None else quiet.parameters
         if silent != self._silent:
             code = Interlock.SENSOR_SILENT if silent else Interlock.SENSOR_BACK
-            self._warn(Reason(code, (silent or self._silent,)))
+            self._warn(Reason(code, silent or self._silent))
             self._silent = silent
         self._remember()
 
     def _observed(self, t: float) -> Observed:
-        silent, states = self.links.silent(t), self.links.states
+        silent, states = self.links.silent, self.links.states
         return Observed(t, self._attitudes, self._rates, silent, states, self._before)
 
     def _remember(self) -> None:

@@ -1,7 +1,7 @@
 """The interlocks that stop every motor, evaluated at every turn, whoever commands.
 
     tilt, rate      the median of the last three rows is beyond its limit
-    silence         a sensor has given no row, or a board no answer, for too long
+    silence         a sensor has given no row of a channel, or a board no answer, for too long
     travel, speed   a mass is beyond its travel, or faster than it can be
     mismatch        a mass stands elsewhere than where it was sent
     fault           a board says that something is wrong
@@ -23,7 +23,7 @@ import numpy as np
 from equipoise.hardware.transport.driver_protocol import BoardState, Phase
 from equipoise.maths.attitude import conjugate, multiply, tilt
 from equipoise.model.arrays import Floats
-from equipoise.model.hardware import SafetyLimits
+from equipoise.model.hardware import Gives, SafetyLimits
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.testbed import SlidingMass, Testbed
@@ -41,7 +41,9 @@ class Observed:
     t: float  # s, now
     attitudes: Sequence[tuple[float, Floats]] = ()  # the last rows: s, quaternion
     rates: Sequence[tuple[float, Floats]] = ()  # the last rows: s, rad/s
-    silent: Mapping[str, float] = field(default_factory=dict[str, float])  # s, by sensor
+    silent: Mapping[tuple[str, Gives], float] = field(  # s, by sensor and channel
+        default_factory=dict[tuple[str, Gives], float]
+    )
     boards: Mapping[str, BoardState] = field(default_factory=dict[str, BoardState])
     before: Mapping[str, tuple[float, float]] = field(  # s, m: an earlier answer, by mass
         default_factory=dict[str, tuple[float, float]]
@@ -69,10 +71,10 @@ def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reaso
 
 
 def silence(observed: Observed, limits: SafetyLimits) -> Reason | None:
-    """Return which sensor gives no rows, whether masses move or not."""
-    for name, since in observed.silent.items():
+    """Return which sensor gives no rows of what, whether masses move or not."""
+    for (name, channel), since in observed.silent.items():
         if since > limits.stale:
-            return Reason(Interlock.SILENCE, (name,), {"seconds": round(since, TENTHS)})
+            return Reason(Interlock.SILENCE, (name, channel), {"seconds": round(since, TENTHS)})
     return None
 
 

@@ -10,7 +10,7 @@ from equipoise.model.hardware import Gives
 from equipoise.model.reading import Reading
 
 FROZEN = 0.4  # s, chosen: of the very same values, after which rows count as none
-WRAP = 1000  # rows, chosen: a step back of a row's number beyond it is a counter that began anew
+WRAP = 50  # rows, chosen: more than networks put out of order; beyond it a counter began anew
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +50,14 @@ def arrived(arrivals: Arrivals, reading: Reading, t: float) -> tuple[Arrivals, b
     if t - since > FROZEN:
         return replace(after, frozen=after.frozen + 1), False
     return replace(after, kept=after.kept + 1), True
+
+
+def begun_anew(arrivals: Arrivals) -> Arrivals:
+    """Return the arrivals of a device that was just opened: it may number its rows from the start.
+
+    Counts go on.
+    """
+    return replace(arrivals, last={})
 
 
 def _again(last: Last, reading: Reading) -> bool:

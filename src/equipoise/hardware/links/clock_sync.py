@@ -13,6 +13,7 @@ settled: there a row early by that only begins the count anew.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 SPAN = 5.0  # s, chosen: some hundred rows
 SPANS = 24  # chosen: two minutes, in which a quartz drifts evenly
@@ -31,12 +32,15 @@ class DeviceClock:
     jumps: int = 0
 
 
-def learnt(clock: DeviceClock, stamp: float, arrival: float) -> DeviceClock:
-    """Return the clock with one more row."""
+def learnt(clock: DeviceClock, stamp: float, arrival: float, waited: float = 0.0) -> DeviceClock:
+    """Return the clock with one more row.
+
+    ``waited``: s, for how long it may have lain before somebody read it.
+    """
     if not clock.quickest:
         return _begun(clock, stamp, arrival)
     late = arrival - to_bench(clock, stamp)
-    if stamp < clock.last or not -EARLY <= late <= LATE:
+    if stamp < clock.last or not -EARLY <= late <= LATE + waited:
         unsettled = -LATE <= late < 0 and len(clock.quickest) == 1
         return replace(_begun(clock, stamp, arrival), jumps=clock.jumps + (not unsettled))
     if stamp >= clock.span_end:
@@ -69,12 +73,16 @@ def _begun(clock: DeviceClock, stamp: float, arrival: float) -> DeviceClock:
 
 
 def _line(clock: DeviceClock) -> tuple[tuple[float, float], float]:
+    return _line_below(clock.quickest)
+
+
+@lru_cache(maxsize=64)  # most rows are not the quickest and leave it as it is
+def _line_below(rows: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], float]:
     """Return a row on the line and its slope less one.
 
     The lower hull's edge over the middle of the spans: no row is below it, and of such lines it
     is nearest to the rows on average.
     """
-    rows = clock.quickest
     if len(rows) < 3:
         return min(rows, key=lambda row: row[1] - row[0]), 0.0
     hull = _lower_hull(tuple((s, a - s) for s, a in rows))

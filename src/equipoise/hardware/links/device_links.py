@@ -8,7 +8,7 @@ from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.hardware.transport.driver_protocol import BoardDriver, BoardState, Phase
 from equipoise.hardware.transport.reconnecting_port import Connection
-from equipoise.model.hardware import MotorBoard
+from equipoise.model.hardware import Gives, MotorBoard
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 
@@ -105,9 +105,14 @@ class Links:
         """How well each device answers."""
         return [*(link.health for link in self.boards), *(link.health for link in self.sensors)]
 
-    def silent(self, t: float) -> dict[str, float]:
-        """Return how long each sensor has given no row, s."""
-        return {link.unit.name: link.silent_for(t) for link in self.sensors}
+    @property
+    def silent(self) -> dict[tuple[str, Gives], float]:
+        """How long each channel of each sensor has given no row, s."""
+        return {
+            (link.unit.name, channel): seconds
+            for link in self.sensors
+            for channel, seconds in link.silent.items()
+        }
 
     def go(self, targets: Mapping[str, float], t: float) -> None:
         """Send masses to displacements (m), each by its board."""

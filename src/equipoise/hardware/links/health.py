@@ -6,6 +6,7 @@ from enum import StrEnum
 
 from equipoise.hardware.links.arrival_statistics import Arrivals
 from equipoise.hardware.links.clock_sync import DeviceClock, drift_of, offset_of
+from equipoise.hardware.transport.requests import Unconfirmed
 from equipoise.model.hardware import Gives
 from equipoise.model.reading import Counts
 from equipoise.model.units import MS, PPM
@@ -19,6 +20,7 @@ class Defect(StrEnum):
     LATE = "late"
     FROZEN = "frozen"
     MISSING = "missing"
+    UNCONFIRMED = "unconfirmed"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,11 +31,13 @@ class Health:
     counts: Counts  # messages
     arrivals: Arrivals | None = None  # rows
     clocks: Mapping[Gives, DeviceClock] = field(default_factory=dict[Gives, DeviceClock])
+    unconfirmed: tuple[Unconfirmed, ...] = ()  # requests that are overdue
+    received: bytes = b""  # last
 
     @property
     def wrong(self) -> dict[Defect, int]:
         """How many messages or rows were wrong, by what was wrong with them; none that is 0."""
-        found = {Defect.BROKEN: self.counts.corrupt}
+        found = {Defect.BROKEN: self.counts.corrupt, Defect.UNCONFIRMED: len(self.unconfirmed)}
         if self.arrivals is not None:
             found |= {
                 Defect.TWICE: self.arrivals.duplicate,
@@ -52,8 +56,13 @@ class Health:
         if self.arrivals is not None:
             good += f", {self.arrivals.kept} rows"
         wrong = ", ".join(f"{count} {what}" for what, count in self.wrong.items())
-        clocks = (f"; {self._clock(channel)}" for channel in self.clocks)
-        return f"{self.device}: {good}; {wrong or 'nothing wrong'}{''.join(clocks)}"
+        more = [each.sentence for each in self.unconfirmed]
+        if more:
+            more.append(
+                f"last received: {self.received!r}" if self.received else "nothing was received"
+            )
+        more += [self._clock(channel) for channel in self.clocks]
+        return "; ".join((f"{self.device}: {good}", wrong or "nothing wrong", *more))
 
     @property
     def data(self) -> dict[str, object]:

@@ -18,12 +18,14 @@ from equipoise.hardware.camera.sight import Sight
 from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.finite_numbers import finite
 from equipoise.hardware.transport.mjpeg_stream import Part, Parts
+from equipoise.hardware.transport.requests import ONCE
 from equipoise.maths.attitude import from_matrix
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Reading
 
 BEGIN, END = b"\xff\xd8", b"\xff\xd9"  # of a JPEG picture
 STAMP = "x-timestamp"
+STREAM = "the stream of pictures"
 
 
 class Camera(SensorDriver):
@@ -32,7 +34,8 @@ class Camera(SensorDriver):
     def __init__(self, unit: SensorUnit) -> None:
         self._where = f"hardware.sensor {unit.name}: settings"
         self._eye = eye_of(unit.settings, self._where)
-        super().__init__(request(unit.port.address))
+        head = request(unit.port.address)
+        super().__init__({STREAM: head} if head else {}, again=ONCE)
         self._parts, self._sight = Parts(), self._anew()
 
     def opened(self) -> None:
@@ -43,10 +46,13 @@ class Camera(SensorDriver):
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows of the pictures that are whole with these bytes."""
-        if not self._greeting:
+        if not self._spoken:
             return self._raw(data)
         lost = self._parts.lost
-        readings = [r for part in self._parts.cut(data) for r in self._part(part)]
+        parts = self._parts.cut(data)
+        if parts:
+            self.requests.confirmed(STREAM)
+        readings = [r for part in parts for r in self._part(part)]
         self.count(corrupt=self._parts.lost - lost)
         return readings
 

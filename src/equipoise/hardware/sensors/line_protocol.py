@@ -39,19 +39,23 @@ Numbers = dict[str, float]
 
 
 class LineProtocol(SensorDriver):
-    """The conversation; settings: ``format``, ``columns``, and a line to ``send`` at opening."""
+    """The conversation; settings: ``format``, ``columns``, and a line to ``send`` at opening.
+
+    It is sent again until there is a row: a board that begins anew when its port is opened does not
+    hear what is sent at once.
+    """
 
     def __init__(self, unit: SensorUnit) -> None:
         settings = Settings(unit, KEYS)
-        greeting = settings.text("send").encode()
-        super().__init__(greeting + b"\n" if greeting else b"")
+        self._send = settings.text("send")
+        super().__init__({self._send: self._send.encode() + b"\n"} if self._send else {})
         form = settings.text("format", "csv", FORMATS)
-        declared = [_declared(column) for column in settings.names("columns")]
-        self._columns = columns_of(unit, settings, [name for name, _ in declared])
-        for name, key in declared:
+        columns = [declared(column) for column in settings.names("columns")]
+        self._columns = columns_of(unit, settings, [name for name, _ in columns])
+        for name, key in columns:
             if form == "csv" and name != key:
                 raise settings.wrong(f"column '{key}'", 'format = "json" for keys')
-        self._read = _Json(declared) if form == "json" else _Csv([name for name, _ in declared])
+        self._read = _Json(columns) if form == "json" else _Csv([name for name, _ in columns])
         self._lines, self._begun = Lines(), False
         self._whole = unit.port.address.startswith(WHOLE)
 
@@ -76,7 +80,10 @@ class LineProtocol(SensorDriver):
         row = self._read(line)
         if row == {}:
             return self.counted(None)
-        return self.counted([] if row is None else self._columns.readings(row))
+        readings = [] if row is None else self._columns.readings(row)
+        if readings:
+            self.requests.confirmed(self._send)
+        return self.counted(readings)
 
 
 class _Csv:
@@ -100,8 +107,8 @@ class _Csv:
 class _Json:
     """An object, by keys."""
 
-    def __init__(self, declared: Sequence[tuple[str, str]]) -> None:
-        self._paths = {name: key.split(".") for name, key in declared if name != SKIPPED}
+    def __init__(self, columns: Sequence[tuple[str, str]]) -> None:
+        self._paths = {name: key.split(".") for name, key in columns if name != SKIPPED}
 
     def __call__(self, line: bytes) -> Numbers | None:
         """Return the numbers by name; empty if there are none of ours, None if it is broken."""
@@ -116,7 +123,7 @@ class _Json:
         return _finite(found) if plain else None
 
 
-def _declared(column: str) -> tuple[str, str]:
+def declared(column: str) -> tuple[str, str]:
     """Return a column's name and its key: "qw=imu.q.w", "imu.qw" or "qw"."""
     name, equals, key = column.partition("=")
     return (name, key) if equals else (column.rpartition(".")[2], column)

@@ -37,17 +37,22 @@ UNIT = 1e-3  # chosen: a quaternion of single precision is of length one well wi
 
 
 class Mavlink(SensorDriver):
-    """The conversation; settings: ``rate_hz``, asked for if given, and ``rate_from``."""
+    """The conversation; settings: ``rate_hz``, asked for if given, and ``rate_from``.
+
+    An acknowledgement does not say which message's interval it is of. So one is asked for at a
+    time, and as many acknowledgements are void as were sent again.
+    """
 
     def __init__(self, unit: SensorUnit) -> None:
-        super().__init__()
         settings = Settings(unit, KEYS)
         where = f"hardware.sensor {unit.name}"
         self._dialect = needed("pymavlink.dialects.v20.common", "mavlink", where)
         self._hz = settings.positive("rate_hz")
         self._rate = settings.text("rate_from", IMU, (ATTITUDE, IMU))
         sources = {"attitude": ATTITUDE, "rate": self._rate}
-        self._wanted = sorted({IDS[sources[channel]] for channel in unit.gives})
+        kinds = sorted({sources[channel] for channel in unit.gives}) if self._hz else []
+        super().__init__({f"the interval of {kind}": b"" for kind in kinds}, one_by_one=True)
+        self._kinds = dict(zip(self._spoken, kinds, strict=True))
         self.opened()
 
     def opened(self) -> None:
@@ -57,27 +62,33 @@ class Mavlink(SensorDriver):
         self._received.robust_parsing = True
         self._said = self._dialect.MAVLink(None, STATION, PLANNER)
         self._vehicle: tuple[int, int] | None = None  # system and component
-        self._answers, self._next = 0, float("-inf")
+        self._sent = self._void = 0  # requests not acknowledged; acknowledgements of no use
+        self._next = float("-inf")
 
     def due(self, t: float) -> bytes:
-        """Return a heartbeat each second, and what asks for messages until it is answered."""
-        if t < self._next:
-            return b""
-        self._next = t + BEAT
-        kinds = self._dialect
-        beat = self._packed(
-            kinds.MAVLink_heartbeat_message(
-                kinds.MAV_TYPE_GCS, kinds.MAV_AUTOPILOT_INVALID, 0, 0, kinds.MAV_STATE_ACTIVE, 3
-            )
-        )
-        if self._vehicle is None or self._hz is None or self._answers >= len(self._wanted):
-            return beat
-        return beat + b"".join(self._request(each, 1e6 / self._hz) for each in self._wanted)
+        """Return a heartbeat each second, and what asks for messages until it is confirmed."""
+        said = b""
+        if t >= self._next:
+            self._next = t + BEAT
+            said = self._beat()
+        if self._vehicle is None or self._hz is None:
+            return said
+        wanted = [IDS[self._kinds[name]] for name in self.requests.due(t)]
+        self._sent += len(wanted)
+        return said + b"".join(self._request(each, 1e6 / self._hz) for each in wanted)
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows that are complete with these bytes."""
         messages: list[Any] = self._received.parse_buffer(data) or []
         return [reading for message in messages for reading in self._message(message)]
+
+    def _beat(self) -> bytes:
+        kinds = self._dialect
+        return self._packed(
+            kinds.MAVLink_heartbeat_message(
+                kinds.MAV_TYPE_GCS, kinds.MAV_AUTOPILOT_INVALID, 0, 0, kinds.MAV_STATE_ACTIVE, 3
+            )
+        )
 
     def _request(self, message_id: int, microseconds: float) -> bytes:
         command = self._dialect.MAV_CMD_SET_MESSAGE_INTERVAL
@@ -106,10 +117,25 @@ class Mavlink(SensorDriver):
         if self._vehicle is None and (beats or kind in IDS):
             self._vehicle = (message.get_srcSystem(), message.get_srcComponent())
         ours = self._vehicle is not None and message.get_srcSystem() == self._vehicle[0]
-        interval = self._dialect.MAV_CMD_SET_MESSAGE_INTERVAL
-        if ours and kind == "COMMAND_ACK" and message.command == interval:
-            self._answers += 1
+        if ours and kind == "COMMAND_ACK":
+            self._acknowledged(message)
         return ours and kind in IDS
+
+    def _acknowledged(self, message: Any) -> None:
+        """Credit an acknowledgement to the request that was sent last, unless it is void."""
+        kinds, name = self._dialect, self.requests.first
+        interval = message.command == kinds.MAV_CMD_SET_MESSAGE_INTERVAL
+        if not interval or message.target_system not in (0, STATION):
+            return
+        if self._void:
+            self._void -= 1
+        elif name is not None and message.result != kinds.MAV_RESULT_IN_PROGRESS:
+            self._void, self._sent = max(self._sent - 1, 0), 0
+            if message.result == kinds.MAV_RESULT_ACCEPTED:
+                self.requests.confirmed(name)
+            else:
+                known = kinds.enums["MAV_RESULT"].get(message.result)
+                self.requests.refused(known.name if known else str(message.result), name)
 
     def _readings(self, kind: str, message: Any) -> list[Reading] | None:
         """Return the rows of a message; empty if it is broken, None if it holds none for us."""

@@ -13,7 +13,7 @@ numbers of the computer's own size (wrong on Windows) and fills the memory for a
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from equipoise.hardware.sensors import natnet_packet as natnet
 from equipoise.hardware.sensors.attitudes import unit_row
@@ -25,17 +25,21 @@ from equipoise.model.reading import Reading
 BEAT = 1.0  # s, chosen: between signs of life; Motive forgets who has been silent for long
 UNIT = 1e-3  # chosen: a quaternion of single precision is of length one well within this
 UNICAST = "udpout:"
+GREETING = "a greeting"
 
 
 class NatNet(SensorDriver):
     """The conversation; setting: ``body``, a rigid body's streaming id or its name."""
 
     def __init__(self, unit: SensorUnit) -> None:
-        super().__init__()
         settings = Settings(unit, ("body",))
         check_gives(unit, ["attitude"], '"attitude" alone: NatNet sends no rate')
-        self._requests = unit.port.address.startswith(UNICAST)
-        self._name, self._id = _body(unit, settings, self._requests)
+        self._unicast = unit.port.address.startswith(UNICAST)
+        self._name, self._id = _body(unit, settings, self._unicast)
+        self._wanted = f"the rigid body '{self._name}'"
+        names = {self._wanted: natnet.packet(natnet.REQUEST_NAMES, b"\0")} if self._name else {}
+        greeting = {GREETING: natnet.packet(natnet.CONNECT, b"Ping\0")} if self._unicast else {}
+        super().__init__(greeting | names, one_by_one=True)
         self._next, self._answered = float("-inf"), False
 
     def opened(self) -> None:
@@ -50,14 +54,14 @@ class NatNet(SensorDriver):
 
         A Motive that has been silent since the last one may have begun anew, and is greeted again.
         """
-        if not self._requests or t < self._next:
-            return b""
-        self._next = t + BEAT
-        answered, self._answered = self._answered, False
-        if not answered:
-            return natnet.packet(natnet.CONNECT, b"Ping\0")
-        kind = natnet.ALIVE if self._id is not None else natnet.REQUEST_NAMES
-        return natnet.packet(kind, b"\0")
+        beat = self._unicast and t >= self._next
+        if beat:
+            self._next = t + BEAT
+            if not self._answered:
+                self.requests.reopen(GREETING)
+            self._answered = False
+        said = super().due(t)
+        return said or (natnet.packet(natnet.ALIVE, b"\0") if beat else b"")
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the row of a datagram."""
@@ -72,10 +76,11 @@ class NatNet(SensorDriver):
     def _readings(self, kind: int, payload: bytes) -> list[Reading] | None:
         """Return the row of a frame; None if a packet is of no use."""
         self._answered = True
+        self.requests.confirmed(GREETING)
         if kind == natnet.SERVER:
             return []
         if kind == natnet.NAMES and self._name:
-            self._id = natnet.names_of(payload).get(self._name)
+            self._named(natnet.names_of(payload))
             return []
         if kind != natnet.FRAME:
             return None
@@ -88,6 +93,13 @@ class NatNet(SensorDriver):
         if turn is None or not math.isfinite(frame.stamp):
             raise natnet.BrokenPacket
         return [Reading("attitude", turn, frame.stamp, frame.number)]
+
+    def _named(self, bodies: Mapping[str, int]) -> None:
+        self._id = bodies.get(self._name)
+        if self._id is None:
+            self.requests.refused(f"rigid bodies {', '.join(bodies) or 'none'}", self._wanted)
+        else:
+            self.requests.confirmed(self._wanted)
 
 
 def _body(unit: SensorUnit, settings: Settings, requests: bool) -> tuple[str, int | None]:

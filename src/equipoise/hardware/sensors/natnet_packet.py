@@ -15,10 +15,11 @@ version it is of: it is of the one by which it ends where the packet ends.
 """
 
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 CONNECT, SERVER, REQUEST_NAMES, NAMES, FRAME, ALIVE = 0, 1, 4, 5, 7, 10
+HEAD = 4  # bytes before the payload
 TRACKED = 1
 BODY, MARKER, POINT = 38, 26, 12  # bytes
 SUFFIX, PRECISE = 46, 54  # bytes after the sections, without and with precise time
@@ -54,12 +55,25 @@ def packet(kind: int, payload: bytes) -> bytes:
 
 def opened(data: bytes) -> tuple[int, bytes]:
     """Return the kind and the payload of a packet."""
-    if len(data) < 4:
+    if len(data) < HEAD or len(data) < HEAD + _size(data):
         raise BrokenPacket
-    kind, size = struct.unpack_from("<HH", data)
-    if len(data) < 4 + size:
-        raise BrokenPacket
-    return int(kind), data[4 : 4 + size]
+    return int(struct.unpack_from("<H", data)[0]), data[HEAD : HEAD + _size(data)]
+
+
+def cut_packets(chunks: Iterable[bytes]) -> Iterator[bytes]:
+    """Yield packets that were saved one behind the other; a cut one at the end is no whole one."""
+    data = b""
+    for chunk in chunks:
+        data += chunk
+        while len(data) >= HEAD and len(data) >= (size := HEAD + _size(data)):
+            yield data[:size]
+            data = data[size:]
+    if data:
+        yield data
+
+
+def _size(data: bytes) -> int:
+    return int(struct.unpack_from("<H", data, 2)[0])
 
 
 def frame_of(payload: bytes) -> Frame:

@@ -1,6 +1,6 @@
 """ROS 2 topics by rosbridge: JSON messages of a WebSocket.
 
-    {"op": "subscribe", "topic": "/imu", "type": "sensor_msgs/msg/Imu"}                  we say
+    {"op": "subscribe", "id": "/imu", "topic": "/imu", "type": "sensor_msgs/msg/Imu"}    we say
     {"op": "publish", "topic": "/imu", "msg": {"header": {"stamp": ...}, ...}}           it says
 
 Source: rosbridge v2.0 protocol specification; sensor_msgs/Imu, geometry_msgs/PoseStamped and REP
@@ -51,17 +51,29 @@ class RosBridge(SensorDriver):
         if len(set(self._topics.values())) < len(self._topics) and self._types["attitude"] == POSE:
             raise settings.wrong(f"one topic of {POSE} for both", f"{IMU}, or two topics")
         types = {topic: self._types[channel] for channel, topic in self._topics.items()}
-        requested = ({"op": "subscribe", "topic": t, "type": kind} for t, kind in types.items())
-        super().__init__(b"".join(json.dumps(each).encode() + b"\n" for each in requested))
+        super().__init__({topic: _subscription(topic, kind) for topic, kind in types.items()})
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows of a message."""
         try:
             message = json.loads(data)
+            self._confirm(message)
             readings = self._published(cast("Message", message)) if _is_published(message) else []
         except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
             return self.counted([])
         return self.counted(readings or None)
+
+    def _confirm(self, message: Any) -> None:
+        """Note what a message says of the subscriptions: a topic's message, or an error."""
+        if not isinstance(message, dict):
+            return
+        said = cast("dict[str, Any]", message)
+        if _is_published(said):
+            self.requests.confirmed(str(said.get("topic")))
+        elif said.get("op") == "status" and said.get("level") == "error":
+            topic = said.get("id")
+            known = isinstance(topic, str) and topic in self._spoken
+            self.requests.refused(str(said.get("msg")), topic if known else None)
 
     def _published(self, message: Message) -> list[Reading]:
         """Return the rows of a topic; raises for one that is not what it should be."""
@@ -73,6 +85,12 @@ class RosBridge(SensorDriver):
             except NotThere:
                 continue
         return found
+
+
+def _subscription(topic: str, kind: str) -> bytes:
+    """Return a subscription; by its id it is one however often it is sent, and has its errors."""
+    wanted = {"op": "subscribe", "id": topic, "topic": topic, "type": kind}
+    return json.dumps(wanted).encode() + b"\n"
 
 
 def _is_published(message: Any) -> bool:

@@ -61,13 +61,20 @@ MESSAGES = {
 }
 UNIT = 1e-3  # chosen: a quaternion of six decimals is of length one within this
 KEYS = ("message", "rate_hz")
+KIND, RATE = 6, 7  # registers
+WRITE, ERROR = b"VNWRG", b"VNERR"
 
 
 class VectorNav(SensorDriver):
-    """The conversation; settings: ``message`` such as VNQMR and ``rate_hz``, asked for if given."""
+    """The conversation; settings: ``message`` such as VNQMR and ``rate_hz``, asked for if given.
+
+    The device answers a request by saying it again, or by $VNERR and a number. One that began anew
+    has forgotten: it is asked again when another of these messages comes than the one asked for.
+    """
 
     def __init__(self, unit: SensorUnit) -> None:
-        super().__init__(_greeting(unit))
+        self._requested = _requests(unit)  # bodies by register
+        super().__init__({body.decode(): _line_of(body) for body in self._requested.values()})
         self._lines, self._first = Lines(), False
 
     def opened(self) -> None:
@@ -83,11 +90,27 @@ class VectorNav(SensorDriver):
     def _line(self, line: bytes) -> list[Reading]:
         body, first, self._first = checked(line), self._first, False
         if body is None:
-            self.count(corrupt=not first)  # the port may have been opened in the middle of a line
+            text = b"$" not in line and b"*" not in line and line.isascii()
+            # the port may have been opened in the middle of a line
+            self.count(corrupt=not (first or text), foreign=text)
             return []
         name, *fields = body.split(b",")
         message = MESSAGES.get(name)
+        self._confirm(name, fields, message)
         return self.counted(None if message is None else _readings(message, fields))
+
+    def _confirm(self, name: bytes, fields: Sequence[bytes], message: Message | None) -> None:
+        """Note what a line says of the requests: an echo, an error, or the message asked for."""
+        if name == ERROR:
+            self.requests.refused(b",".join((name, *fields)).decode(errors="replace"))
+        elif name == WRITE:
+            for body in self._requested.values():
+                if all_finite(fields[:2]) == all_finite(body.split(b",")[1:]):
+                    self.requests.confirmed(body.decode())
+        elif message is not None and KIND in self._requested:
+            body = self._requested[KIND]
+            right = body == _request(KIND, message.code)
+            (self.requests.confirmed if right else self.requests.reopen)(body.decode())
 
 
 def checked(line: bytes) -> bytes | None:
@@ -134,15 +157,23 @@ def _readings(message: Message, fields: Sequence[bytes]) -> list[Reading]:
     return found
 
 
-def _greeting(unit: SensorUnit) -> bytes:
-    """Return the commands that ask for a message and its rate."""
+def _requests(unit: SensorUnit) -> dict[int, bytes]:
+    """Return the bodies of the commands that ask for a message and its rate, by register."""
     settings = Settings(unit, KEYS)
     name, rate = settings.text("message"), settings.positive("rate_hz")
-    commands: list[bytes] = []
+    found: dict[int, bytes] = {}
     if name:
         known = [each.decode() for each in MESSAGES]
         code = MESSAGES[settings.text("message", among=known).encode()].code
-        commands.append(b"VNWRG,06,%d" % code)
+        found[KIND] = _request(KIND, code)
     if rate is not None:
-        commands.append(b"VNWRG,07,%d" % int(rate))
-    return b"".join(b"$%s*%02X\r\n" % (body, exclusive_or(body)) for body in commands)
+        found[RATE] = _request(RATE, int(rate))
+    return found
+
+
+def _request(register: int, value: int) -> bytes:
+    return b"%s,%02d,%d" % (WRITE, register, value)
+
+
+def _line_of(body: bytes) -> bytes:
+    return b"$%s*%02X\r\n" % (body, exclusive_or(body))

@@ -1,8 +1,9 @@
-"""What drivers have in common: a count of messages; those of sensors also what is sent first."""
+"""What drivers have in common: a count of messages; those of sensors also what they ask for."""
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from equipoise.hardware.transport.requests import AGAIN, Requests
 from equipoise.model.reading import Counts, Reading
 
 
@@ -19,24 +20,39 @@ class Tally:
 
 
 class SensorDriver(Tally):
-    """The conversation with one sensor; ``greeting`` is sent once after the port is opened."""
+    """The conversation with one sensor, and what it is asked for after the port is opened.
 
-    def __init__(self, greeting: bytes = b"") -> None:
+    ``spoken`` says how each request is sent, by its name for people.
+    """
+
+    def __init__(
+        self,
+        spoken: Mapping[str, bytes] | None = None,
+        again: float = AGAIN,
+        one_by_one: bool = False,
+    ) -> None:
         super().__init__()
-        self._greeting, self._greet = greeting, True
+        self._spoken = dict(spoken or {})
+        self.requests = Requests(self._spoken, again, one_by_one)
 
     def opened(self) -> None:
         """Begin anew: the port has just been opened, half a message of before is void."""
-        self.counts, self._greet = Counts(), True
+        self.counts = Counts()
+        self.requests.begin()
 
     @abstractmethod
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows that are complete with these bytes (for UDP: this datagram)."""
 
     def due(self, t: float) -> bytes:
-        """Return what to send now: a greeting, a request, a heartbeat; asked at every turn."""
-        greet, self._greet = self._greet, False
-        return self._greeting if greet else b""
+        """Return what to send now: requests, a heartbeat; asked at every turn."""
+        return b"".join(self._spoken[name] for name in self.requests.due(t))
+
+    def count(self, good: int = 0, corrupt: int = 0, foreign: int = 0) -> None:
+        """Count messages; one that is whole is a sign of life."""
+        super().count(good, corrupt, foreign)
+        if good or foreign:
+            self.requests.alive()
 
     def counted(self, readings: list[Reading] | None) -> list[Reading]:
         """Count a message by its rows and return them; no row: it is broken, None: of no use."""

@@ -1,6 +1,7 @@
 """Read a file's bytes or text, with a sentence for everything that can be wrong with it."""
 
 from pathlib import Path
+from typing import BinaryIO
 
 from equipoise.model.errors import InputError
 
@@ -9,17 +10,26 @@ MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", 
 SAMPLE = 4096  # bytes examined to distinguish text from binary; chosen: several lines of any table
 
 
-def read_bytes(path: str | Path, wanted: str) -> bytes:
-    """Return the file's bytes; ``wanted`` says what kind of file should have been there."""
+def open_bytes(path: str | Path, wanted: str) -> BinaryIO:
+    """Return a file open for its bytes; ``wanted`` says what kind of file should be there."""
     file = Path(path)
     if file.is_dir():
         raise InputError(str(path), "a directory", wanted)
     try:
-        content = file.read_bytes()
+        return file.open("rb")
     except FileNotFoundError as error:
         raise InputError(str(path), "no such file", wanted) from error
     except OSError as error:
         raise InputError(str(path), error.strerror or str(error), wanted) from error
+
+
+def read_bytes(path: str | Path, wanted: str) -> bytes:
+    """Return the file's bytes; ``wanted`` says what kind of file should have been there."""
+    with open_bytes(path, wanted) as file:
+        try:
+            content = file.read()
+        except OSError as error:
+            raise InputError(str(path), error.strerror or str(error), wanted) from error
     if not content.strip():
         raise InputError(str(path), "an empty file", wanted)
     return content

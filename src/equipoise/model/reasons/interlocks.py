@@ -14,7 +14,7 @@ class Interlock(Code):
         "rate",
         "the platform turns with {rate:deg .1f} deg/s; the limit is {limit:deg .1f} deg/s",
     )
-    SILENCE = "silence", "sensor {0} has given no row for {seconds:.1f} s"
+    SILENCE = "silence", "sensor {0} has given no row of {1} for {seconds:.1f} s"
     TRAVEL = (
         "travel",
         "mass {0} is at {at:mm .1f} mm; its travel is {low:mm g} to {high:mm g} mm",
@@ -39,5 +39,5 @@ class Interlock(Code):
     # What stops nothing, but keeps masses from being moved
     UNREACHABLE = "unreachable", "{0} cannot be reached: {1}"
     POSITION_UNKNOWN = "position_unknown", "board {0}: it has not found its position"
-    SENSOR_SILENT = "sensor_silent", "sensor {0} is silent"
-    SENSOR_BACK = "sensor_back", "sensor {0} gives rows again"
+    SENSOR_SILENT = "sensor_silent", "sensor {0} gives no row of {1}"
+    SENSOR_BACK = "sensor_back", "sensor {0} gives rows of {1} again"

@@ -1,0 +1,140 @@
+"""Bytes of a sensor that were saved, through its driver, to a recording: `equipoise convert --as`.
+
+The driver is the one of the bench, and so is what times and turns its rows.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from os import SEEK_CUR, SEEK_END
+from typing import BinaryIO
+
+from equipoise.app.runs.captured_sensor import STREAM
+from equipoise.hardware.links.captured_rows import CapturedRows, Timeless
+from equipoise.hardware.links.health import Health
+from equipoise.hardware.links.row_buffer import RowBuffer
+from equipoise.hardware.sensors.natnet_packet import cut_packets
+from equipoise.hardware.sensors.registry import DRIVERS
+from equipoise.hardware.transport.conversation import SensorDriver
+from equipoise.io.files.source_file import open_bytes
+from equipoise.io.formats.byte_capture import CHUNK, Piece, stream_pieces
+from equipoise.io.formats.pcap_capture import is_pcap, pcap_pieces
+from equipoise.io.formats.tlog_capture import is_tlog, tlog_pieces
+from equipoise.model.errors import InputError
+from equipoise.model.hardware import Port, SensorUnit
+from equipoise.model.recording import Recording
+
+OnProgress = Callable[[float], None]
+PORTS = {"natnet": (1510, 1511), "mavlink": (14550,)}  # UDP, as they are by default
+LINES = ("vectornav", "lines")  # whose rows end where a line does
+DATAGRAMS, NAMED = "udp:0", "udpout:file:0"  # how a driver is to read pieces
+SHOWN = 60  # bytes, chosen: of what comes first, where nothing is understood
+WANTED = "bytes of a sensor, as they were saved"
+
+
+class Capture:
+    """A file's pieces on their way through a driver, and what else was found."""
+
+    def __init__(self, file: str, unit: SensorUnit, rate: float | None) -> None:
+        self.file, self.unit = file, unit
+        self.driver: SensorDriver = DRIVERS[unit.driver](unit)
+        self.driver.opened()
+        stated = unit.settings.get("rate_hz")
+        self._rate = rate if rate is not None or not isinstance(stated, float) else stated
+        self._rows, self._taken = CapturedRows(unit, self._rate), RowBuffer(())
+        self._others: Counter[int] = Counter()  # datagrams, by port they went to
+        self._first = self._last = b""
+
+    def take(self, piece: Piece) -> None:
+        """Read a piece, if it is of the sensor's ports."""
+        ports = PORTS.get(self.unit.driver)
+        if piece.ports is not None and ports is not None and not set(ports) & set(piece.ports):
+            self._others[piece.ports[1]] += 1
+            return
+        if len(self._first) < SHOWN:
+            self._first = (self._first + piece.data)[:SHOWN]
+        self._last = piece.data or self._last
+        before = self.driver.counts.corrupt
+        self.driver.count(corrupt=piece.broken)
+        readings = self.driver.feed(piece.data) if piece.data else ()
+        readings = [each for each in readings if each.channel in self.unit.gives]
+        try:
+            rows = self._rows.rows(readings, piece.t, self.driver.counts.corrupt - before)
+        except Timeless:
+            wanted = "--rate-hz, at which they came"
+            raise InputError(self.file, "rows and a file without times", wanted) from None
+        for row in rows:
+            self._taken.row(row)
+
+    def recording(self) -> Recording:
+        """Return the rows, with notes; InputError with what was there instead if there are none."""
+        recording, received = self._taken.taken(), self._rows.received
+        health = Health(f"sensor {self.unit.name}", self.driver.counts, received.arrivals)
+        others = f"of other ports ({', '.join(str(p) for p, _ in self._others.most_common(3))})"
+        aside = _counted(self._others.total(), "datagram", others)
+        if recording.attitude is None and recording.rate is None:
+            begins = f"it begins {self._first!r}" if self._first else "nothing to read"
+            parts = ("no row", health.sentence, begins, aside, *self._ends())
+            found = "; ".join(part for part in parts if part)
+            raise InputError(self.file, found, f"bytes as driver {self.unit.driver} reads them")
+        jumps = sum(clock.jumps for clock in received.clocks.values())
+        notes = (
+            health.sentence,
+            _counted(jumps, "jump", "of the device's clock; rows go on after the one before"),
+            _counted(self._rows.set_back, "step back", "of the capture's clock; rows go on"),
+            aside,
+            f"rows without times were spaced at {self._rate:g} Hz" if self._rows.spaced else "",
+            *self._ends(),
+        )
+        return replace(recording, source=self.file, notes=tuple(note for note in notes if note))
+
+    def _ends(self) -> Iterator[str]:
+        """Yield what is left out where the file begins and ends."""
+        if self.unit.port.address != STREAM or self.unit.driver not in LINES:
+            return
+        if self.unit.driver == "lines":
+            yield "the first line is left out: it may have lost its beginning"
+        if not self._last.endswith((b"\n", b"\r")):
+            yield "the last line is left out: it has no end"
+
+
+def recording_of_capture(
+    file: str, unit: SensorUnit, rate: float | None, reported: OnProgress
+) -> Recording:
+    """Return the rows in a file of saved bytes, with notes of what was broken or left out."""
+    with open_bytes(file, WANTED) as content:
+        size = content.seek(0, SEEK_END)
+        content.seek(0)
+        beginning = content.read(CHUNK)
+        content.seek(0)
+        capture = Capture(file, replace(unit, port=_port(unit, is_pcap(beginning))), rate)
+        shown = 0
+        for piece in _pieces(content, beginning, unit):
+            capture.take(piece)
+            at = content.seek(0, SEEK_CUR)
+            if at - shown > CHUNK:
+                shown = at
+                reported(at / size)
+    return capture.recording()
+
+
+def _port(unit: SensorUnit, datagrams: bool) -> Port:
+    """Return a port by which the driver reads the file's pieces as they are: no port is opened."""
+    if unit.driver == "natnet":
+        return Port(NAMED)  # the file may hold the answer to what bodies are called
+    return Port(DATAGRAMS if datagrams else STREAM)
+
+
+def _pieces(content: BinaryIO, beginning: bytes, unit: SensorUnit) -> Iterator[Piece]:
+    """Return a file's pieces; of what kind it is shows at its beginning."""
+    if is_pcap(beginning):
+        return pcap_pieces(content)
+    if unit.driver == "mavlink" and is_tlog(beginning):
+        return tlog_pieces(content)
+    if unit.driver == "natnet":
+        return (Piece(packet) for packet in cut_packets(iter(lambda: content.read(CHUNK), b"")))
+    return stream_pieces(content)
+
+
+def _counted(count: int, thing: str, what: str) -> str:
+    return f"{count} {thing}{'s' * (count != 1)} {what}" if count else ""
