@@ -45,12 +45,12 @@ def test_every_boards_conversation_has_words(kind):
     """From the start to the end of a way: nothing is called a line or a command by its number."""
     assert set(EXPLAINED) == set(BOARDS)
     wire, words = Wire(kind), EXPLAINED[kind]()
-    heard = EXPLAINED[kind]()
+    listener = EXPLAINED[kind]()
     feed = wire.driver.feed
     said = []
 
     def listened(data, t):
-        said.extend(heard.received(data))
+        said.extend(listener.received(data))
         feed(data, t)
 
     wire.driver.feed = listened

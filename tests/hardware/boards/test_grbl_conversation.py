@@ -61,7 +61,7 @@ def test_each_dialect_begins_homes_and_moves(name):
         ("", "<{},MPos:0.000,0.000,0.000,WPos:0.000,0.000,0.000>"),
     ],
 )
-def test_an_old_grbl_is_told_by_its_greeting_or_its_commas(greeting, report):
+def test_an_old_grbl_is_known_by_its_greeting_or_its_commas(greeting, report):
     state = Talk(Dialect(greeting, report)).run(4.5, Phase.FAULT)
     assert state.fault.code is BoardFault.OUTDATED
     assert "wanted Grbl 1.1" in state.sentence
@@ -78,7 +78,7 @@ def test_what_answers_but_is_no_grbl_is_quoted_and_not_called_unplugged():
     assert "'ok'" in state.sentence
 
 
-def test_a_wrong_baud_rate_is_heard_and_no_silence():
+def test_a_wrong_baud_rate_is_noise_and_no_silence():
     class Garbled(Dialect):
         def answers(self, data):
             return b"\xfe\x80\x00\xf8" * len(data)
@@ -217,12 +217,12 @@ def test_a_position_that_waited_for_the_host_is_not_stamped_with_its_return():
     wire = Wire("grbl", turn=QUICK).at_home()
     wire.driver.go({"x": 14 * MM}, wire.t)
     wire.run(0.5)
-    asked = wire.t
-    wire.driver.due(asked + 0.06)  # a question, at the latest
+    queried = wire.t
+    wire.driver.due(queried + 0.06)  # a question, at the latest
     report = b"<Jog|MPos:-13.000,-17.000,-17.000|FS:480,0>\r\n"
-    wire.driver.feed(report, asked + 2.0)
+    wire.driver.feed(report, queried + 2.0)
     assert wire.driver.state.position["x"] == pytest.approx(4 * MM)
-    assert wire.driver.state.reported < asked + 0.2
+    assert wire.driver.state.reported < queried + 0.2
 
 
 @pytest.mark.parametrize(
@@ -240,7 +240,7 @@ def test_a_state_in_which_nothing_moves_is_a_fault_that_names_it(state, code):
     assert state.partition(":")[0] in found.sentence
 
 
-def test_a_fault_says_what_was_asked_and_heard_and_names_no_cause_that_nobody_saw():
+def test_a_fault_has_the_query_and_the_last_line_and_no_cause_that_nobody_observed():
     wire = Wire("grbl").at_home()
     wire.cut = True
     state = wire.run(3.0, until=Phase.FAULT)
@@ -301,27 +301,27 @@ def test_a_halt_cancels_once_for_a_report_and_not_while_the_board_slows_down():
 
 
 def test_a_report_is_as_old_as_the_oldest_question_that_is_open():
-    """Asked at 0 s and again 0.25 s later: the first report answers the first of them."""
+    """Queried at 0 s and again 0.25 s later: the first report answers the first of them."""
     talk = GrblTalk(Tally())
     talk.begin()
-    list(talk.heard(b"Grbl 1.1h ['$' for help]\r\n", 0.0))
-    asked = []
+    list(talk.reports(b"Grbl 1.1h ['$' for help]\r\n", 0.0))
+    queried = []
     for k in range(40):
         t = round(0.01 * k, 9)
         talk.clock.turn(t)
         if b"?" in talk.due(t, 0.1):
-            asked.append(t)
-    assert len(asked) == 2
+            queried.append(t)
+    assert len(queried) == 2
     report = b"<Idle|MPos:0.000,0.000,0.000|FS:0,0>\r\n"
-    list(talk.heard(report, 0.4))
-    assert talk.asked == asked[0]
-    list(talk.heard(report, 0.41))
-    assert talk.asked == asked[1]
-    list(talk.heard(report, 0.42))  # nobody asked: it may be as old as the one before
-    assert talk.asked == pytest.approx(0.41)
+    list(talk.reports(report, 0.4))
+    assert talk.queried == queried[0]
+    list(talk.reports(report, 0.41))
+    assert talk.queried == queried[1]
+    list(talk.reports(report, 0.42))  # nobody queried: it may be as old as the one before
+    assert talk.queried == pytest.approx(0.41)
 
 
-def test_a_report_that_was_asked_for_before_a_halt_says_nothing_of_it():
+def test_a_report_queried_before_a_halt_says_nothing_of_it():
     """It says Idle, of before the jog began: no line is sent to see whether masses stand."""
     wire = Wire("grbl", turn=QUICK).at_home()
     wire.driver.go({"x": 14 * MM}, wire.t)

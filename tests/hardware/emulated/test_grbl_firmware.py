@@ -13,7 +13,7 @@ from equipoise.hardware.emulated.grbl import EmulatedGrbl
 from equipoise.model.units import MM
 from tests.support.board_wire import BED, board_of
 
-JOG, FAR, LONG = b"$J=G53G21G90X-10F480\n", b"$J=G53G21G90X-250F480\n", b"x" * 90 + b"\n"
+JOG, BEYOND, LONG = b"$J=G53G21G90X-10F480\n", b"$J=G53G21G90X-250F480\n", b"x" * 90 + b"\n"
 GREETING = rb"\r\nGrbl 1\.1h \['\$' for help\]\r\n"
 LOCK = rb"\[MSG:'\$H'\|'\$X' to unlock\]\r\n"
 
@@ -132,7 +132,7 @@ TABLE = [
     (idle, b"\x18", GREETING, "Idle"),
     (idle, b"\n", rb"ok\r\n", "Idle"),
     (idle, JOG, rb"ok\r\n", "Jog"),
-    (idle, FAR, rb"error:15\r\n", "Idle"),
+    (idle, BEYOND, rb"error:15\r\n", "Idle"),
     (idle, b"$J=G53G21G90X-10\n", rb"error:22\r\n", "Idle"),
     (idle, b"$J=G53G21G90X-10F0\n", rb"error:22\r\n", "Idle"),
     (idle, LONG, rb"error:11\r\n", "Idle"),

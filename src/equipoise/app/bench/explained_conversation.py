@@ -28,7 +28,7 @@ class Said:
 class Conversations:
     """Prints who says what to whom; what is said again and again is said once, and counted."""
 
-    def __init__(self, hardware: Hardware, tell: Callable[[str], None]) -> None:
+    def __init__(self, hardware: Hardware, print_line: Callable[[str], None]) -> None:
         devices = [*hardware.boards, *hardware.sensors]
         self._names = {device.port.address: device.name for device in devices}
         self._words: dict[str, Explained] = {
@@ -36,7 +36,7 @@ class Conversations:
         }
         self._endless = {unit.port.address: FIRST for unit in hardware.sensors}
         self._last: dict[tuple[str, str], Said] = {}
-        self._tell, self._clock = tell, WallClock()
+        self._print, self._clock = print_line, WallClock()
 
     @property
     def opener(self) -> Opener:
@@ -71,6 +71,6 @@ class Conversations:
             return
         name = self._names[address]
         if said.again:
-            self._tell(f"          {way} {name}: the same {said.again} times more")
+            self._print(f"          {way} {name}: the same {said.again} times more")
         self._last[address, way] = Said(words)
-        self._tell(f"{self._clock.now:7.3f} s {way} {name}: {words}")
+        self._print(f"{self._clock.now:7.3f} s {way} {name}: {words}")

@@ -34,13 +34,13 @@ def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
     from equipoise.app.text.blocks import items
     from equipoise.hardware.bench.open_port import open_port
 
-    def tell(line: str) -> None:
+    def print_line(line: str) -> None:
         stdout().print(line, markup=False, style="dim", soft_wrap=True)
 
     bed = testbed_from(testbed)
     reported: list[CheckResult] = []
     with busy("talking to the devices", announce=False):
-        opener = Conversations(hardware_of(bed), tell).opener if explain else open_port
+        opener = Conversations(hardware_of(bed), print_line).opener if explain else open_port
         steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else agreed, opener)
         for line in steps:
             show(items((line.sentence,), "good" if line.good else "bad"))

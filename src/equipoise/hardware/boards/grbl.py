@@ -41,12 +41,11 @@ from equipoise.hardware.boards.grbl_settings import (
     late_to_stop,
     longest_homing,
 )
+from equipoise.hardware.boards.grbl_states import LOST, POLLS, QUIET, TAKES_LEGS, WAYS_OUT
 from equipoise.hardware.boards.grbl_talk import CANCEL, HOLD, RESUME, GrblTalk, Step
 from equipoise.hardware.boards.grbl_watch import too_late
 from equipoise.hardware.transport.driver_protocol import (
     POLL,
-    POLL_HALTED,
-    POLL_MOVING,
     BoardDriver,
     BoardState,
     Phase,
@@ -59,19 +58,6 @@ from equipoise.model.testbed import SlidingMass
 DIGIT = 1e-6  # m: positions are reported to 1 um
 SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
 NUDGE = 0.1  # s, chosen: a board takes a line within some ms; printing its settings takes 55
-QUIET = (MachineState.IDLE, MachineState.ALARM)  # a line is taken in them
-POLLS = {Phase.MOVING: POLL_MOVING, Phase.HOMING: POLL_MOVING, Phase.HALTED: POLL_HALTED}
-TAKES_LEGS = (MachineState.IDLE, MachineState.JOG)
-LOST = (MachineState.ALARM, MachineState.SLEEP)  # the position may not be true any more
-WAYS_OUT = {
-    MachineState.ALARM: "it is locked",
-    MachineState.HOLD: "somebody holds it",
-    MachineState.CHECK: "it answers and moves nothing ($C)",
-    MachineState.DOOR: "its safety door is open",
-    MachineState.SLEEP: "its motors are off ($SLP)",
-    MachineState.TOOL: "it waits for a change of tools",
-    MachineState.HOME: "somebody else homes it",
-}
 
 
 class Grbl(BoardDriver):
@@ -110,7 +96,7 @@ class Grbl(BoardDriver):
 
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
-        for report in self._talk.heard(data, t):
+        for report in self._talk.reports(data, t):
             self._received(report, t)
 
     def due(self, t: float) -> bytes:
@@ -128,7 +114,7 @@ class Grbl(BoardDriver):
         self._talk.queue.drop()
         if not listens:
             self._talk.reset()
-        self._ask_settings()
+        self._request_settings()
         self.state = BoardState(Phase.HOMING, reported=self.state.reported)
         self._route.begin({})
         self._wait_from(t)
@@ -173,7 +159,7 @@ class Grbl(BoardDriver):
         elif phase is Phase.CONNECTING or (phase is Phase.READY and not self.state.sure):
             self._talk.queue.drop()  # opening a port may reset it twice
             self._talk.queue.cut()
-            self._ask_settings()
+            self._request_settings()
             self.state = BoardState(Phase.CONNECTING, reported=t)
         elif self._talk.expected:
             self._halt.begun_anew()
@@ -183,7 +169,7 @@ class Grbl(BoardDriver):
             self._fault(BoardFault.BEGAN_ANEW, f"'{greeting.text}'", lost=True)
         self._wait_from(t)
 
-    def _ask_settings(self) -> None:
+    def _request_settings(self) -> None:
         self._settings = {}
         self._talk.queue.put([step_command(Step.SETTINGS)])
 
@@ -228,7 +214,7 @@ class Grbl(BoardDriver):
             return None
         self._wait_from(t)
         if command.purpose is Step.HOME:
-            self._talk.ask_anew()  # it may have heard no question meanwhile
+            self._talk.void_queries()  # it may have heard no question meanwhile
         return command.purpose
 
     def _placed(self, status: Status) -> None:
@@ -250,7 +236,7 @@ class Grbl(BoardDriver):
     def _judge(self, status: Status, t: float) -> None:
         """Draw a conclusion from a report that was asked for after what was done last."""
         phase = self.state.phase
-        if self._talk.asked <= self._changed or phase in (Phase.CONNECTING, Phase.FAULT):
+        if self._talk.queried <= self._changed or phase in (Phase.CONNECTING, Phase.FAULT):
             return
         if phase is Phase.HALTED:
             self._slow_down(status, t)
@@ -364,12 +350,12 @@ class Grbl(BoardDriver):
         that would be behind the answer here.
         """
         talk, status = self._talk, self._talk.status
-        waiting = talk.queue.pending is not None and talk.asked > talk.line_sent
+        waiting = talk.queue.pending is not None and talk.queried > talk.line_sent
         if not waiting or status is None or status.state is not MachineState.IDLE:
             self._first_idle = float("inf")
         else:
             self._first_idle = min(self._first_idle, talk.arrived)
-        return talk.asked > self._first_idle + NUDGE
+        return talk.queried > self._first_idle + NUDGE
 
     def _nudge(self) -> None:
         """Free it; after a halt by a reset, since a line of before would be carried out else."""

@@ -4,7 +4,7 @@ import re
 
 from equipoise.hardware.boards.grbl_codes import alarm_text, error_text
 from equipoise.hardware.boards.grbl_report import Code, Greeting, Report, Setting, Status, parsed
-from equipoise.hardware.boards.grbl_talk import ASK, CANCEL, HOLD, RESET, RESUME
+from equipoise.hardware.boards.grbl_talk import CANCEL, HOLD, QUERY, RESET, RESUME
 from equipoise.hardware.transport.line_splitter import Lines
 
 AT_ONCE = {
@@ -12,7 +12,7 @@ AT_ONCE = {
     HOLD: "hold (!)",
     RESUME: "go on (~)",
     CANCEL: "throw the jog away (0x85)",
-    ASK: "where are you? (?)",
+    QUERY: "where are you? (?)",
 }
 WORDS = re.compile(b"([" + re.escape(b"".join(AT_ONCE)) + b"])")
 LINES = {
@@ -42,7 +42,7 @@ class GrblExplained:
 
     def received(self, data: bytes) -> list[str]:
         """Return what the board has said."""
-        return [_heard(line, parsed(line)) for line in self._lines.cut(data)]
+        return [_received(line, parsed(line)) for line in self._lines.cut(data)]
 
 
 def _line(line: bytes) -> str:
@@ -52,7 +52,7 @@ def _line(line: bytes) -> str:
     return LINES.get(line, f"the line '{line.decode('ascii', 'replace')}'")
 
 
-def _heard(line: bytes, report: Report | None) -> str:
+def _received(line: bytes, report: Report | None) -> str:
     text = line.decode("ascii", "backslashreplace")
     if isinstance(report, Status):
         return f"I am in state {report.state}{_place(report)}"

@@ -21,7 +21,7 @@ from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.reading import Counts
 
-RESET, HOLD, RESUME, CANCEL, ASK = b"\x18", b"!", b"~", b"\x85", b"?"
+RESET, HOLD, RESUME, CANCEL, QUERY = b"\x18", b"!", b"~", b"\x85", b"?"
 BEGIN = 4.0  # s, attended, chosen: an Arduino's loader takes two of them after the port is opened
 TRY = 1.5  # s, attended, chosen: between resets while it has not begun
 UNGREETED = 1.0  # s, chosen: who reports a state so long after a reset has begun
@@ -55,12 +55,12 @@ class GrblTalk:
         self._tally.counts = Counts()
         self.queue.drop()
         self.status: Status | None = None  # the last
-        self.asked = self.arrived = float("-inf")  # s, bench time, of the last status
-        self._asked_at = float("-inf")  # s, attended, of the last status
+        self.queried = self.arrived = float("-inf")  # s, bench time, of the last status
+        self._queried_at = float("-inf")  # s, attended, of the last status
         self.line_sent = float("-inf")  # s, bench time, of the last line
-        self._last_asked = float("-inf")  # s, attended
+        self._last_query = float("-inf")  # s, attended
         self._unreported = False  # nothing was reported since it was asked last
-        self._heard, self._heard_at = b"", self.clock.now
+        self._last_line, self._line_at = b"", self.clock.now
         self.expected = True  # the last greeting was awaited
         self.reset()
 
@@ -76,18 +76,18 @@ class GrblTalk:
     def urge(self, byte: bytes) -> None:
         """Send a byte that acts at once, and a question behind it."""
         self._urgent += byte
-        self._last_asked = float("-inf")
+        self._last_query = float("-inf")
 
-    def ask_anew(self) -> None:
+    def void_queries(self) -> None:
         """Forget open questions: the board has not listened so far."""
         self._open.clear()
 
-    def heard(self, data: bytes, t: float) -> Iterator[Report]:
+    def reports(self, data: bytes, t: float) -> Iterator[Report]:
         """Return what matters of what has arrived, one report after the other."""
         if data:
-            self._heard_at = self.clock.now
+            self._line_at = self.clock.now
         for line in self._lines.cut(data):
-            self._heard = line
+            self._last_line = line
             report = parsed(line)
             self._tally.count(good=report is not None, corrupt=report is None)
             if report is not None:
@@ -120,27 +120,27 @@ class GrblTalk:
         pending = self.queue.pending
         if pending is None:
             return False
-        return self._asked_at > self.clock.now - self.queue.waited + pending.patience
+        return self._queried_at > self.clock.now - self.queue.waited + pending.patience
 
     @property
-    def last_heard(self) -> tuple[str | None, float]:
+    def last_received(self) -> tuple[str | None, float]:
         """What was heard last, for people, None: nothing; and how long ago, s, attended."""
-        heard = self._heard or self._lines.rest
-        text = f"'{heard.decode('ascii', 'backslashreplace')[:SHOWN]}'" if heard else None
-        return text, self.clock.now - self._heard_at
+        line = self._last_line or self._lines.rest
+        text = f"'{line.decode('ascii', 'backslashreplace')[:SHOWN]}'" if line else None
+        return text, self.clock.now - self._line_at
 
     def _question(self, t: float, pause: float) -> bytes:
         now = self.clock.now
         while len(self._open) > 1 and now - self._open[0][1] > VOID:
             self._open.popleft()
-        if now - self._last_asked < (AGAIN if self._unreported else pause) - 1e-9:
+        if now - self._last_query < (AGAIN if self._unreported else pause) - 1e-9:
             return b""
-        self._last_asked = now
+        self._last_query = now
         if not self._open:
             self._quiet_since = now
         self._open.append((t, now))
         self._unreported = True
-        return ASK
+        return QUERY
 
     def _mattering(self, report: Report, t: float) -> Iterator[Report]:
         """Pass on what is no answer of before a reset; a state long after one is a greeting."""
@@ -161,8 +161,8 @@ class GrblTalk:
 
     def _reported(self, status: Status, t: float) -> None:
         if self._open:
-            self.asked, self._asked_at = self._open.popleft()
+            self.queried, self._queried_at = self._open.popleft()
         else:
-            self.asked = self.arrived
+            self.queried = self.arrived
         self._quiet_since, self._unreported = self.clock.now, False
         self.status, self.arrived = status, self.clock.arrival(t)

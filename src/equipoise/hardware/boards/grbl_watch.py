@@ -34,19 +34,21 @@ def too_late(talk: GrblTalk, phase: Phase, since: float) -> Late | None:
     if pending is not None and talk.queue.overdue and (homes or talk.reported_since_due):
         return _unanswered(talk, pending.purpose)
     if talk.question_waited > SILENCE and not homes:
-        asked = "its state (?)"
-        return Late(_observed(talk, BoardFault.SILENT, talk.question_waited, asked), lost=True)
+        code, query = BoardFault.SILENT, "its state (?)"
+        return Late(_observed(talk, code, talk.question_waited, query), lost=True)
     if phase in (Phase.CONNECTING, Phase.READY) or pending is not None:
         return None
     return _stalled(talk, phase, talk.clock.now - since)
 
 
 def _not_begun(talk: GrblTalk, phase: Phase) -> Late:
-    text, _ = talk.last_heard
+    text, _ = talk.last_received
     if phase is not Phase.CONNECTING:
         return Late(_observed(talk, BoardFault.NOT_BEGUN, talk.reset_waited), lost=True)
     if text is None:
-        return Late(Reason(BoardFault.NEVER_HEARD, (), {"waited": talk.reset_waited}), lost=True)
+        return Late(
+            Reason(BoardFault.NOTHING_RECEIVED, (), {"waited": talk.reset_waited}), lost=True
+        )
     return Late(Reason(BoardFault.NOT_ITS_KIND, ("Grbl", text)), lost=True)
 
 
@@ -70,6 +72,6 @@ def _stalled(talk: GrblTalk, phase: Phase, waited: float) -> Late | None:
     return Late(Reason(BoardFault.STALLED, (state,), {"waited": waited}), lost=False)
 
 
-def _observed(talk: GrblTalk, code: BoardFault, waited: float, *asked: str) -> Reason:
-    text, ago = talk.last_heard
-    return Reason(code, (*asked, text or "nothing"), {"waited": waited, "ago": ago})
+def _observed(talk: GrblTalk, code: BoardFault, waited: float, *query: str) -> Reason:
+    text, ago = talk.last_received
+    return Reason(code, (*query, text or "nothing"), {"waited": waited, "ago": ago})

@@ -256,22 +256,22 @@ class Tmcl(BoardDriver):
 
     def _unanswered(self) -> None:
         pending, waited = self._talk.queue.pending, self._talk.queue.waited
-        text, ago = self._talk.last_heard
+        text, ago = self._talk.last_received
         self._talk.give_up()
         doing, self._doing = self._doing, ""
         if doing == "version" and self._calls < w.SIZE:
             return  # it is called again
         if self.state.phase is not Phase.CONNECTING:
-            asked = "a request" if pending is None else requested(pending.purpose)
+            query = "a request" if pending is None else requested(pending.purpose)
             numbers = {"waited": waited, "ago": ago}
-            self._fault(BoardFault.SILENT, asked, text, silent=True, numbers=numbers)
+            self._fault(BoardFault.SILENT, query, text, silent=True, numbers=numbers)
         elif text == "nothing":
-            self._fault(BoardFault.NEVER_HEARD, silent=True, numbers={"waited": ago})
+            self._fault(BoardFault.NOTHING_RECEIVED, silent=True, numbers={"waited": ago})
         else:
             self._fault(BoardFault.NOT_ITS_KIND, "TMCL", text, silent=True)
 
     def _search_long(self, t: float) -> None:
-        text, ago = self._talk.last_heard
+        text, ago = self._talk.last_received
         numbers = {"waited": t - self._since, "ago": ago}
         self._fault(BoardFault.HOMING_LONG, text, numbers=numbers)
 

@@ -43,7 +43,7 @@ class Talk:
         self.answers: dict[Request, Answer] = {}  # of this script
         self.give_up()
         self._rest = b""
-        self._heard, self._heard_at = "nothing", self.clock.now
+        self._last_reply, self._last_at = "nothing", self.clock.now
 
     def say(self, script: Iterable[Request]) -> None:
         """Say a script from now on; what was to be said before is not said any more."""
@@ -74,9 +74,9 @@ class Talk:
         return next(found, "")
 
     @property
-    def last_heard(self) -> tuple[str, float]:
+    def last_received(self) -> tuple[str, float]:
         """What was heard last, for people, and how long ago, s, attended."""
-        return self._heard, self.clock.now - self._heard_at
+        return self._last_reply, self.clock.now - self._last_at
 
     def value(self, request: Request) -> int | None:
         """Return what was answered to a request of this script; None: nothing, or a refusal."""
@@ -92,7 +92,7 @@ class Talk:
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
         if data:
-            self._heard, self._heard_at = f"'{data[-SHOWN:].hex(' ')}'", self.clock.now
+            self._last_reply, self._last_at = f"'{data[-SHOWN:].hex(' ')}'", self.clock.now
         replies, breaks, self._rest = replies_in(self._rest + data)
         self._tally.count(corrupt=breaks)
         for reply in replies:

@@ -125,7 +125,7 @@ class GrblMachine(ABC):
         self.motion.ended()
         if self._state is State.HOME:
             self._state, self._then = State.IDLE, self._homed
-            self._report_if_asked(State.HOME)
+            self._report_if_queried(State.HOME)
         else:
             self._flags.add(Flag.STOPPED)
         self._wait_for_motors()
@@ -168,7 +168,7 @@ class GrblMachine(ABC):
                 continue
             if self._state is State.HOME:
                 return
-            self._look_at_flags()
+            self._execute_flags()
             if self._free_at < float("inf") or self._then is not None:
                 continue
             if self._suspended:
@@ -190,8 +190,8 @@ class GrblMachine(ABC):
 
     # --- Flags -------------------------------------------------------------------------------
 
-    def _look_at_flags(self) -> None:
-        self._report_if_asked(self._state)
+    def _execute_flags(self) -> None:
+        self._report_if_queried(self._state)
         holds = self._flags & {Flag.HOLD, Flag.CANCEL, Flag.DOOR, Flag.SLEEP}
         if holds:
             self._hold(holds)
@@ -252,7 +252,7 @@ class GrblMachine(ABC):
         self._suspended = set()
         self._state = State.DOOR if self._ajar else State.IDLE
 
-    def _report_if_asked(self, state: State) -> None:
+    def _report_if_queried(self, state: State) -> None:
         if Flag.REPORT not in self._flags:
             return
         self._flags.discard(Flag.REPORT)

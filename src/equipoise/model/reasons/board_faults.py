@@ -14,8 +14,8 @@ class BoardFault(Code):
         "port_gone",
         "its port is gone ({0}); its position is lost; connect it, then home again",
     )
-    NEVER_HEARD = (
-        "never_heard",
+    NOTHING_RECEIVED = (
+        "nothing_received",
         "nothing was heard from it in the {waited:.1f} s since its port was opened; check its "
         "power, its port and its baud rate",
     )
