@@ -1,7 +1,8 @@
 """The one door to the compiler, so that the type checker keeps seeing plain functions.
 
 A kernel is a pure function of arrays, compiled on first use and cached on disk. Fused
-multiply-add and reassociation are allowed; NaN and infinity keep their meaning.
+multiply-add and reassociation are allowed; NaN and infinity keep their meaning. No signal can
+interrupt its call: within it, no line of Python is run (``boxing.py``).
 """
 
 from collections.abc import Callable
@@ -9,7 +10,7 @@ from typing import Any, TypeVar, cast
 
 import numba
 
-from equipoise.maths.kernel_cache import install
+from equipoise.maths import boxing, kernel_cache
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 FAST = {"contract", "reassoc", "nsz", "arcp"}
@@ -21,12 +22,13 @@ OPTIONS: dict[str, Any] = {
 }
 MERGED: dict[str, Any] = {**OPTIONS, "forceinline": True, "_nrt": False}
 
-install()
+kernel_cache.install()
+boxing.install()
 
 
 def kernel(function: Function) -> Function:
     """Compile a function of arrays and numbers; it runs without the interpreter's lock."""
-    return cast(Function, numba.njit(**OPTIONS)(function))
+    return _compiled(function, OPTIONS)
 
 
 def part(function: Function) -> Function:
@@ -36,4 +38,9 @@ def part(function: Function) -> Function:
     arrays and keeps no count of who uses which: counting, two atomic operations for each view of
     an array, took half the time of a fit.
     """
-    return cast(Function, numba.njit(**MERGED)(function))
+    return _compiled(function, MERGED)
+
+
+def _compiled(function: Function, options: dict[str, Any]) -> Function:
+    boxing.MODULES.add(function.__module__)
+    return cast(Function, numba.njit(**options)(function))
