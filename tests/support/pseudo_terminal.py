@@ -4,6 +4,7 @@ import fcntl
 import os
 import pty
 import re
+import select
 import signal
 import struct
 import subprocess
@@ -33,14 +34,15 @@ class AtTerminal:
         )  # fmt: skip
         os.close(theirs)
         self.stdout = self._process.stdout  # None at the terminal
-        self._ours, self._received = ours, bytearray()
+        self._ours, self._received, self._gone = ours, bytearray(), False
         self._listener = threading.Thread(target=self._listen)
         self._listener.start()
 
     def _listen(self):
         try:
-            while part := os.read(self._ours, 1 << 16):
-                self._received += part
+            while not self._gone:
+                if select.select([self._ours], [], [], 0.05)[0]:
+                    self._received += os.read(self._ours, 1 << 16)
         except OSError:  # who had the other end is gone
             pass
         os.close(self._ours)
@@ -62,6 +64,14 @@ class AtTerminal:
     def ctrl_c(self):
         """Do as a terminal does: all processes of the command are told."""
         os.killpg(self._process.pid, signal.SIGINT)
+
+    def hang_up(self):
+        """Do as a terminal that is closed, and its shell: the end of all writing, told twice."""
+        self._gone = True
+        self._listener.join(PATIENCE)
+        for _ in range(2):
+            os.killpg(self._process.pid, signal.SIGHUP)
+            time.sleep(0.05)
 
     def ended(self):
         """Return the exit code."""
