@@ -62,15 +62,19 @@ class AtTerminal:
             time.sleep(0.02)
 
     def ctrl_c(self):
-        """Do as a terminal does: all processes of the command are told."""
-        os.killpg(self._process.pid, signal.SIGINT)
+        """Do as a terminal does."""
+        self.tell(signal.SIGINT)
+
+    def tell(self, number):
+        """Send all processes of the command a signal."""
+        os.killpg(self._process.pid, number)
 
     def hang_up(self):
         """Do as a terminal that is closed, and its shell: the end of all writing, told twice."""
         self._gone = True
         self._listener.join(PATIENCE)
         for _ in range(2):
-            os.killpg(self._process.pid, signal.SIGHUP)
+            self.tell(signal.SIGHUP)
             time.sleep(0.05)
 
     def ended(self):
