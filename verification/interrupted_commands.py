@@ -130,12 +130,12 @@ def _on_a_bench(folder: Path, name: str, moment: float, seed: int) -> Interrupte
             assert there.stdout is not None
             assert any("wrote" in line for line in there.stdout)
             found = _ended(folder, name, moment)
-            return _looked_at(folder, found)
+            return _examined(folder, found)
         finally:
             there.send_signal(signal.SIGINT)
 
 
-def _looked_at(folder: Path, found: Interrupted) -> Interrupted:
+def _examined(folder: Path, found: Interrupted) -> Interrupted:
     """Add whether the bench's masses stand."""
     hardware = read_testbed(folder / "there.toml").hardware
     assert hardware is not None
@@ -177,7 +177,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
                  "d"),
     )  # fmt: skip
     counts = Counter(run.command for run in runs if not run.finished)
-    told = ", ".join(f"{name} {number}" for name, number in counts.items())
+    shares = ", ".join(f"{name} {number}" for name, number in counts.items())
     wrong = [run for run in runs if run.crashed or run.astray or run.traceback]
     notes = [f"{run.command} after {run.moment:.2f} s: code {run.code}" for run in wrong]
-    return Result("interrupted_commands", claim, rows, (f"Interrupted: {told}.", *notes))
+    return Result("interrupted_commands", claim, rows, (f"Interrupted: {shares}.", *notes))

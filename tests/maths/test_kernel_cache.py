@@ -51,7 +51,7 @@ def package(tmp_path):
         (package / room).mkdir(parents=True)
         (package / room / "__init__.py").write_text("")
     (package / "__init__.py").write_text("")
-    for name in ("boxing.py", "compiled.py", "kernel_cache.py"):
+    for name in ("compiled.py", "kernel_cache.py"):
         shutil.copy(PACKAGE / "maths" / name, package / "maths")
     (package / "low" / "factor.py").write_text("FACTOR = 2.0\n")
     (package / "low" / "part.py").write_text(PART)

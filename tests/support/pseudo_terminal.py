@@ -63,9 +63,9 @@ class AtTerminal:
 
     def ctrl_c(self):
         """Do as a terminal does."""
-        self.tell(signal.SIGINT)
+        self.send_all(signal.SIGINT)
 
-    def tell(self, number):
+    def send_all(self, number):
         """Send all processes of the command a signal."""
         os.killpg(self._process.pid, number)
 
@@ -74,7 +74,7 @@ class AtTerminal:
         self._gone = True
         self._listener.join(PATIENCE)
         for _ in range(2):
-            self.tell(signal.SIGHUP)
+            self.send_all(signal.SIGHUP)
             time.sleep(0.05)
 
     def ended(self):

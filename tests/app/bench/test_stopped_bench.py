@@ -72,7 +72,7 @@ def hung_up(balancing):
 
 def terminated(balancing):
     """Tell every process, as a service manager does."""
-    balancing.tell(signal.SIGTERM)
+    balancing.send_all(signal.SIGTERM)
     return balancing.ended()
 
 
