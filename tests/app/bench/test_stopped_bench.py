@@ -59,7 +59,8 @@ def in_a_move(bench, name):
     words = ("balance", "there.toml", "--bench", "--yes", "--record", record, "--out", record.stem)
     balancing, end = AtTerminal(bench, words), time.monotonic() + PATIENCE
     while not record.exists() or move_of(record) is None:
-        assert time.monotonic() < end, balancing.written
+        if time.monotonic() > end:
+            raise TimeoutError(balancing.written)
         time.sleep(0.1)
     time.sleep(INTO)
     return balancing, record
