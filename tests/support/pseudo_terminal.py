@@ -52,6 +52,11 @@ class AtTerminal:
         """All bytes so far, as text."""
         return bytes(self._received).decode(errors="replace")
 
+    @property
+    def over(self):
+        """Whether the command has ended."""
+        return self._process.poll() is not None
+
     def wait_for(self, text):
         """Wait until something has been written."""
         end = time.monotonic() + PATIENCE
@@ -73,7 +78,7 @@ class AtTerminal:
         """Do as a terminal that is closed, and its shell: the end of all writing, told twice."""
         self._gone = True
         self._listener.join(PATIENCE)
-        for _ in range(2):
+        for _ in range(0 if self.over else 2):
             self.send_all(signal.SIGHUP)
             time.sleep(0.05)
 
