@@ -253,7 +253,6 @@ HARDWARE = _of(
      "hardware/bench/test_interlocks.py"),
     ("bench/atomic_message.py", "for number in before:", "for number in ():",
      "hardware/bench/test_atomic_message.py"),
-    ("bench/stop_signals.py", '"SIGINT", "SIGTERM"', '"SIGINT"', "app/test_exit_codes.py"),
     ("transport/line_splitter.py", "if len(self._rest) > LONGEST:",
      "if len(self._rest) > 1000 * LONGEST:", "hardware/transport/test_line_splitter.py"),
 )  # fmt: skip
@@ -261,7 +260,8 @@ HARDWARE = _of(
 APP = _of(
     "app",
     ("console/stop_request.py", "if self._put_off or (unfit(frame) and",
-     "if self._put_off or (False and",
+     "if self._put_off or (False and", "app/console/test_stop_request.py"),
+    ("console/stop_request.py", "echo = number == HANG_UP and", "echo = False and",
      "app/console/test_stop_request.py"),
     ("dashboard/server/gate.py", 'any(origin == f"http://{host}"',
      'any(origin.startswith(f"http://{host}")', "app/dashboard/server/test_gate.py"),

@@ -50,9 +50,8 @@ class Requests:
         """
         reminded, self._reminded = self._reminded, False
         now = time.monotonic()
-        if (reminded and self._pending is None) or (
-            number == HANG_UP and now < self._raised + ECHO
-        ):
+        echo = number == HANG_UP and now < self._raised + ECHO
+        if echo or (reminded and self._pending is None):
             return
         if self._pending is None:
             self._since = now
