@@ -1,5 +1,7 @@
 """0: done and passed; 1: done and not; 2: wrong use; 130: by hand. Errors are one line."""
 
+import signal
+
 import numpy as np
 import pytest
 
@@ -149,6 +151,23 @@ def test_ctrl_c_halts_the_bench_and_says_so(equipoise, monkeypatch):
     assert done.code == 130
     assert halted == [1.0]
     assert "every mass was halted" in done.err
+
+
+@pytest.mark.parametrize(("name", "code"), [("SIGTERM", 143), ("SIGHUP", 129)])
+def test_a_service_or_a_terminal_that_ends_stops_as_ctrl_c_does(equipoise, monkeypatch, name, code):
+    if not hasattr(signal, name):
+        pytest.skip(f"no {name} here")
+    halted = []
+
+    def stopped(law, bench, options, longest):
+        yield Step("measurement", bench.time, OBSERVED, recording=bench.read(1.0))
+        signal.raise_signal(getattr(signal, name))
+
+    monkeypatch.setattr(balancing, "balanced_by", stopped)
+    monkeypatch.setattr(SimulatedBench, "stop", lambda bench: halted.append(bench.time))
+    done = equipoise("balance", "sputnix", "--out", "here")
+    assert (done.code, halted) == (code, [1.0])
+    assert f"stopped by {name}: every mass was halted" in done.err
 
 
 def test_unwritable_outputs_are_reported_before_any_work(equipoise, tmp_path, record_file):

@@ -43,10 +43,10 @@ class Dashboard:
         self.process.kill()
         self.process.wait()
 
-    def end(self):
-        """End it as Ctrl-C does; return its exit code."""
+    def end(self, number=signal.SIGINT):
+        """End it as Ctrl-C does, or another signal; return its exit code."""
         if self.process.poll() is None:
-            self.process.send_signal(signal.SIGINT)
+            self.process.send_signal(number)
         try:
             return self.process.wait(30)
         except subprocess.TimeoutExpired:

@@ -4,6 +4,7 @@ import fcntl
 import os
 import pty
 import re
+import select
 import signal
 import struct
 import subprocess
@@ -33,14 +34,15 @@ class AtTerminal:
         )  # fmt: skip
         os.close(theirs)
         self.stdout = self._process.stdout  # None at the terminal
-        self._ours, self._received = ours, bytearray()
+        self._ours, self._received, self._gone = ours, bytearray(), False
         self._listener = threading.Thread(target=self._listen)
         self._listener.start()
 
     def _listen(self):
         try:
-            while part := os.read(self._ours, 1 << 16):
-                self._received += part
+            while not self._gone:
+                if select.select([self._ours], [], [], 0.05)[0]:
+                    self._received += os.read(self._ours, 1 << 16)
         except OSError:  # who had the other end is gone
             pass
         os.close(self._ours)
@@ -49,6 +51,11 @@ class AtTerminal:
     def written(self):
         """All bytes so far, as text."""
         return bytes(self._received).decode(errors="replace")
+
+    @property
+    def over(self):
+        """Whether the command has ended."""
+        return self._process.poll() is not None
 
     def wait_for(self, text):
         """Wait until something has been written."""
@@ -60,8 +67,20 @@ class AtTerminal:
             time.sleep(0.02)
 
     def ctrl_c(self):
-        """Do as a terminal does: all processes of the command are told."""
-        os.killpg(self._process.pid, signal.SIGINT)
+        """Do as a terminal does."""
+        self.send_all(signal.SIGINT)
+
+    def send_all(self, number):
+        """Send all processes of the command a signal."""
+        os.killpg(self._process.pid, number)
+
+    def hang_up(self):
+        """Do as a terminal that is closed, and its shell: the end of all writing, told twice."""
+        self._gone = True
+        self._listener.join(PATIENCE)
+        for _ in range(0 if self.over else 2):
+            self.send_all(signal.SIGHUP)
+            time.sleep(0.05)
 
     def ended(self):
         """Return the exit code."""

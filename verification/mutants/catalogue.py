@@ -59,6 +59,8 @@ MATHS = _of(
     ("whiteness.py", "chdtrc(LAGS * Q.size,", "chdtrc(LAGS,", "maths/test_whiteness.py"),
     ("gaussian_length.py", "SURE = 0.975", "SURE = 0.9", "maths/test_gaussian_length.py"),
     ("kernel_cache.py", "sha256(content(path)).digest()", 'b""', "maths/test_kernel_cache.py"),
+    ("compiled.py", "ours = context.env_manager", "ours = not context.env_manager",
+     "maths/test_interrupted_kernels.py"),
 )  # fmt: skip
 
 ACTUATORS = _of(
@@ -302,10 +304,16 @@ HARDWARE = _of(
      "app/commands/test_captured_bytes.py"),
     ("links/captured_rows.py", "if stamp < clock.last:", "if stamp < 0 * clock.last:",
      "app/commands/test_captured_bytes.py"),
+    ("bench/atomic_message.py", "for number in before:", "for number in ():",
+     "hardware/bench/test_atomic_message.py"),
 )  # fmt: skip
 
 APP = _of(
     "app",
+    ("console/stop_request.py", "if self._put_off or (unfit(frame) and",
+     "if self._put_off or (False and", "app/console/test_stop_request.py"),
+    ("console/stop_request.py", "echo = number == HANG_UP and", "echo = False and",
+     "app/console/test_stop_request.py"),
     ("dashboard/server/gate.py", 'any(origin == f"http://{host}"',
      'any(origin.startswith(f"http://{host}")', "app/dashboard/server/test_gate.py"),
     ("dashboard/server/authorisation.py", "self._commander not in (None, page)", "False",

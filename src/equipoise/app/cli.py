@@ -1,8 +1,9 @@
 """The door for people: commands, exit codes, and one sentence for whatever goes wrong.
 
 0: done, and the verdict passed. 1: done, and the verdict failed or the estimate is not usable.
-2: wrong use or bad input. 130: stopped by Ctrl-C. No numerical library is imported here; each
-command imports what it needs when it runs.
+2: wrong use or bad input. 130: stopped by Ctrl-C, 143: by SIGTERM, 129: by SIGHUP, each after the
+same halt and account. No numerical library is imported here; each command imports what it needs
+when it runs.
 """
 
 import sys
@@ -39,12 +40,14 @@ from equipoise.app.commands.report import report
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.commands.track import track
+from equipoise.app.console.lasting_output import lasting
+from equipoise.app.console.stop_request import cause_of, exit_code_of, stoppable
 from equipoise.app.console.terminal import complain
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.version import __version__
 
 WRONG_USE = 2
-BY_HAND = 130  # what shells give a program that Ctrl-C ended
+BY_HAND = 130  # what shells give a program that Ctrl-C ended; other signals: 128 and their number
 LEFT_ALONE = 1  # as rich ends a program whose output nobody reads any more
 
 app = App(
@@ -67,6 +70,11 @@ for command in COMMANDS:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line and return its exit code."""
+    with stoppable():
+        return _run(arguments)
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     try:
         return app(arguments, exit_on_error=False, print_error=False) or 0
     except CycloptsError as error:
@@ -78,17 +86,18 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return LEFT_ALONE
     except OSError as error:
         complain(f"{error.filename or 'system'}: {error.strerror or error}")
-    except KeyboardInterrupt as by_hand:
-        complain(": ".join(("stopped by hand", *map(str, by_hand.args))))
-        return BY_HAND
+    except KeyboardInterrupt as stop:
+        complain(": ".join((f"stopped by {cause_of(stop)}", *map(str, stop.args))))
+        return exit_code_of(stop)
     return WRONG_USE
 
 
 def main() -> None:
-    """Run as a program; a terminal that lacks a letter shows another, and nothing fails."""
+    """Run as a program; a terminal that lacks a letter, or is gone, fails nothing."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
+    sys.stdout, sys.stderr = lasting(sys.stdout), lasting(sys.stderr)
     sys.exit(run())
 
 

@@ -45,7 +45,12 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         Why.MET_BY_ONE_CHANGE,
         Why.MET_BY_NO_CHANGE,
     ),
-    VerdictOutcome.HALTED: (Why.TILTED, Why.BENCH_STOPPED, Why.STOPPED_BY_HAND),
+    VerdictOutcome.HALTED: (
+        Why.TILTED,
+        Why.BENCH_STOPPED,
+        Why.STOPPED_BY_HAND,
+        Why.STOPPED_BY_SIGNAL,
+    ),
 }
 
 

@@ -134,7 +134,7 @@ def test_the_first_ctrl_c_stops_and_saves(bench):
         code, out, err = ended(command)
         if "stopped by hand: every mass was halted" in (out + err).lower():
             break
-    assert code == 1
+    assert code == BY_HAND
     reported = json.loads((bench / record.stem / "balance.json").read_text())
     assert reported["verdict"]["code"] == "stopped_by_hand"
     assert "Stopped by hand: every mass was halted" in reported["verdict"]["sentence"]

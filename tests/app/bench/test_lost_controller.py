@@ -19,6 +19,7 @@ from equipoise.app.bench.open_bench import KeptBench, Wanted
 from equipoise.app.runs.balancing import halted
 from equipoise.hardware.bench.controller_process import DistantKeeper
 from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.hardware.bench.stop_signals import STOPPING
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.io.mcap.live_recording import RecordingStopped
 from equipoise.io.testbed.presets import read_preset
@@ -126,6 +127,17 @@ def test_any_call_to_a_dead_bench_controller_raises_bench_stopped():
     assert bench.health() == []
     keeper.close()
     there.close()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no signals between processes")
+def test_a_keeper_leaves_signals_to_its_commander_and_ends_with_it():
+    """A service or a terminal that ends tells the whole group: masses are halted in order."""
+    with running() as bench:
+        keeper = bench._keeper._process
+        for number in STOPPING:
+            os.kill(keeper.pid, number)
+        assert [each.device for each in bench.health()] == ["board masses", "sensor imu"]
+    assert keeper.exitcode == 0
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no SIGSTOP")

@@ -1,4 +1,4 @@
-"""A message is whole before Ctrl-C takes effect, and Ctrl-C is not forgotten."""
+"""A message is whole before a signal to stop takes effect, and the signal is not forgotten."""
 
 import signal
 import threading
@@ -6,6 +6,7 @@ import threading
 import pytest
 
 from equipoise.hardware.bench.atomic_message import whole_message
+from equipoise.hardware.bench.stop_signals import STOPPING
 
 
 def interrupted(done):
@@ -22,26 +23,39 @@ def test_the_block_ends_first():
     assert done == ["all of it"]
 
 
-def test_it_does_what_it_did_before():
-    """Whoever had taken Ctrl-C over has it again, and receives it once."""
+@pytest.mark.parametrize("number", STOPPING)
+def test_it_does_what_it_did_before(number):
+    """Whoever had taken the signal over has it again, and receives it once."""
     reported = []
-    before = signal.signal(signal.SIGINT, lambda *_: reported.append("received"))
+    before = signal.signal(number, lambda *_: reported.append("received"))
     try:
         with whole_message():
-            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(number)
             assert reported == []
         assert reported == ["received"]
-        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(number)
         assert reported == ["received"] * 2
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.signal(number, before)
 
 
-def test_an_error_of_the_block_comes_out_and_the_handler_is_back():
-    before = signal.getsignal(signal.SIGINT)
+@pytest.mark.parametrize("number", STOPPING)
+def test_what_is_ignored_stays_ignored(number):
+    """As in a keeper's process, and under nohup."""
+    before = signal.signal(number, signal.SIG_IGN)
+    try:
+        with whole_message():
+            signal.raise_signal(number)
+        assert signal.getsignal(number) is signal.SIG_IGN
+    finally:
+        signal.signal(number, before)
+
+
+def test_an_error_of_the_block_comes_out_and_the_handlers_are_back():
+    before = [signal.getsignal(number) for number in STOPPING]
     with pytest.raises(ValueError, match="broken"), whole_message():
         raise ValueError("broken")
-    assert signal.getsignal(signal.SIGINT) is before
+    assert [signal.getsignal(number) for number in STOPPING] == before
 
 
 def test_other_threads_are_let_alone():

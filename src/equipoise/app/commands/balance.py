@@ -46,7 +46,8 @@ def balance(
 
     The platform is simulated, or with --bench the real one that the testbed's [hardware] declares.
     With --manual a person places weights instead of masses that move, on a real platform if a
-    --session is named. Ends with 1 when the verdict is that the platform is not balanced.
+    --session is named. Ends with 1 when the verdict is that the platform is not balanced, with 130
+    when Ctrl-C stopped it, 143 SIGTERM, 129 SIGHUP.
 
     Parameters
     ----------
@@ -99,6 +100,8 @@ def balance(
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
     hand_over_run(output_of(done), json, out, bed.name)
+    if done.stopped_with is not None:
+        return done.stopped_with
     return 0 if done.verdict.passed else 1
 
 

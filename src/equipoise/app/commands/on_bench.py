@@ -27,7 +27,8 @@ class OnBench:
     ----------
     bench
         Balance the real bench. The procedure is practised in simulation, then masses go home, then
-        the platform is let go. Ctrl-C halts the masses and saves, a second one leaves.
+        the platform is let go. Ctrl-C, SIGTERM or a lost terminal halts the masses and saves, a
+        second one leaves.
     record
         With --bench: MCAP file to write as rows arrive, with every command and interlock.
     foxglove

@@ -1,12 +1,13 @@
 """What a person sees at the terminal: results on stdout, progress and errors on stderr."""
 
 import itertools
+import signal
 import sys
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
-from equipoise.app.console.keyboard_interrupt import held_back
+from equipoise.app.console.stop_request import stoppable
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -76,18 +77,14 @@ def busy(
 
     sign = _SignOfLife(what, announce, above)
 
-    def ended() -> None:
-        sign.say(what)
-        interruption.carry_out()
-
-    with held_back() as interruption:
+    with stoppable((signal.SIGINT,)) as requests:
         try:
-            with interruption.put_off():
+            with requests.put_off():
                 sign.begin()
-            with compiler_notices(lambda: sign.say(f"{what}: {COMPILING}"), ended):
+            with compiler_notices(lambda: sign.say(f"{what}: {COMPILING}"), lambda: sign.say(what)):
                 yield
         finally:
-            with interruption.put_off():
+            with requests.put_off():
                 sign.end()
 
 

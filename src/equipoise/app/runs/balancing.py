@@ -2,10 +2,12 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from signal import SIGINT
 
 import numpy as np
 
 from equipoise.app.bench.bench_proxy import RecordedBench
+from equipoise.app.console.stop_request import cause_of, exit_code_of, number_of
 from equipoise.app.figures.balancing.balanced_com import Marked
 from equipoise.app.runs.waiting import as_they_come, shown
 from equipoise.app.text.before_after import Change
@@ -59,6 +61,7 @@ class Balancing(Plotted):
     before: ComEstimate | None = None  # as known otherwise; None: the first estimate's
     law: str = OWN.name
     seed: int | None = None  # of all that was drawn; None: a real bench, or not known
+    stopped_with: int | None = None  # exit code of who was stopped; None: ended by itself
 
     @property
     def simulated(self) -> bool:
@@ -109,7 +112,7 @@ def run(
     on_step: Callable[[Step], None] | None,
     through: Through = QUIETLY,
 ) -> Balancing:
-    """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
+    """Balance a bench, show each step as it comes; Ctrl-C and its like halt the bench.
 
     What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a
     simulated one alone. ``through`` says how the run is observed.
@@ -119,17 +122,19 @@ def run(
     recorded = RecordedBench(through.observe(bench))
     steps: list[Step] = []
     truths: list[MassProperties] = []
+    stopped_with = None
     try:
         awaited = until_stopped(recorded, procedure(recorded, goal, limits))
         for step in shown(through.awaited(awaited, "balancing"), on_step):
             steps.append(step)
             if simulated is not None:
                 truths.append(simulated.truth())
-    except KeyboardInterrupt as by_hand:
-        reported = halted(bench)
+    except KeyboardInterrupt as stop:
+        reported, stopped_with = halted(bench), exit_code_of(stop)
         if simulated is not None:
-            raise KeyboardInterrupt(reported) from by_hand
-        steps.append(stop_step(bench, VerdictReason.STOPPED_BY_HAND, reported))
+            stop.args = (reported,)
+            raise
+        steps.append(requested_stop(bench, stop, reported))
         if on_step is not None:
             on_step(steps[-1])
     # A law's first estimate may hold parameters that are not known: it is no prior.
@@ -139,8 +144,9 @@ def run(
     began = truths[0] if planned else before  # after the manoeuvre
     seed = None if simulated is None else simulated.seed
     return Balancing(
-        bench.testbed, goal, steps, recorded.recording(), began, truths, known, limits.law, seed
-    )
+        bench.testbed, goal, steps, recorded.recording(), began, truths, known, limits.law, seed,
+        stopped_with,
+    )  # fmt: skip
 
 
 def halted(bench: Bench) -> str:
@@ -167,6 +173,13 @@ def stop_step(bench: Bench, code: VerdictReason, *about: str, **numbers: Number)
     """Return the last step of a run that was stopped; what it is about begins with a text."""
     judged = Verdict(one_reason(code, *about, **numbers))
     return Step("stop", bench.time, judged.reasons, verdict=judged)
+
+
+def requested_stop(bench: Bench, stop: KeyboardInterrupt, reported: str) -> Step:
+    """Return the last step of a run that somebody stopped, with what came of it."""
+    if number_of(stop) == SIGINT:
+        return stop_step(bench, VerdictReason.STOPPED_BY_HAND, reported)
+    return stop_step(bench, VerdictReason.STOPPED_BY_SIGNAL, cause_of(stop), reported)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:

@@ -1,4 +1,4 @@
-"""Ctrl-C, held back while a message is read from a pipe or written to it.
+"""Ctrl-C and its like, held back while a message is read from a pipe or written to it.
 
 After a message that is cut in two, the next one has no beginning that can be found.
 """
@@ -8,10 +8,12 @@ import threading
 from collections.abc import Generator
 from contextlib import contextmanager
 
+from equipoise.hardware.bench.stop_signals import STOPPING
+
 
 @contextmanager
 def whole_message() -> Generator[None]:
-    """Let the block end before Ctrl-C does what it does; outside the main thread it never does.
+    """Let the block end before a signal does what it does; in other threads none does anything.
 
     A block that raises has ended, too: its error, a pipe that is broken, stops the run as well, and
     with an account of it.
@@ -20,10 +22,13 @@ def whole_message() -> Generator[None]:
         yield
         return
     requested: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _frame: requested.append(number))
+    before = {number: signal.getsignal(number) for number in STOPPING}
     try:
+        for number in before:
+            signal.signal(number, lambda number, _frame: requested.append(number))
         yield
     finally:
-        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
+        for number, handler in before.items():
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)
     if requested:
-        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(requested[0])

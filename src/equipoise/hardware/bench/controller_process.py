@@ -1,8 +1,8 @@
 """The keeper in its own process, so that motors stop whatever happens to the commander.
 
 The two communicate through a pipe. When it breaks, because the commander has ended, been killed or
-crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander
-alone. The keeper never waits for the commander: what it has to say waits in a queue.
+crashed, the keeper halts every mass, closes the record and ends. Signals to stop reach the
+commander alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
     commander to keeper    (n, "go", targets)  (n, "home")  (n, "begin")  (n, "halt", why)
                            (n, "health")       n: counts the commands
@@ -10,7 +10,6 @@ alone. The keeper never waits for the commander: what it has to say waits in a q
 """
 
 import queue
-import signal
 import threading
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -21,6 +20,7 @@ from typing import Any, Protocol
 
 from equipoise.hardware.bench.atomic_message import whole_message
 from equipoise.hardware.bench.bench_controller import BenchState, Keeper
+from equipoise.hardware.bench.stop_signals import leave_to_commander
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.links.health import Health
 from equipoise.model.errors import BenchStopped, EquipoiseError
@@ -56,7 +56,7 @@ class Kept(Protocol):
 
 def run_keeper(pipe: Pipe, make: Callable[[Any], Kept], what: Any) -> None:
     """Keep a bench until the pipe breaks; the process's whole life."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    leave_to_commander()
     box: queue.SimpleQueue[tuple[str, Any] | None] = queue.SimpleQueue()
     try:
         kept = make(what)
@@ -133,7 +133,11 @@ class DistantKeeper:
         self._news = News(0.0, BenchState(), None)
         self._parts: list[Recording] = []
         self._requested = 0  # commands so far
-        self._answer(BEGIN)
+        try:
+            self._answer(BEGIN)
+        except BaseException:  # Ctrl-C too: nobody else would close it, and it waits for the pipe
+            self.close()
+            raise
 
     @property
     def now(self) -> float:

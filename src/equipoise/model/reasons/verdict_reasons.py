@@ -52,6 +52,7 @@ class VerdictReason(Code):
     TILTED = "tilted", "Stopped: the platform tilts beyond its limit."
     BENCH_STOPPED = "bench_stopped", "Stopped: {0}."
     STOPPED_BY_HAND = "stopped_by_hand", "Stopped by hand: {0}."
+    STOPPED_BY_SIGNAL = "stopped_by_signal", "Stopped by {0}: {1}."
 
     # On a requirement
     TORQUE_MET = "torque_met", f"Passed: {TORQUE}"

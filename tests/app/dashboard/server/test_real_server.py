@@ -9,6 +9,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from equipoise.app.dashboard.server.gate import LARGEST
+from equipoise.hardware.bench.stop_signals import STOPPING
+from tests.support import thorough
 from tests.support.dashboard_program import CHROMIUM, Received, browser, dashboard, started
 
 SOCKETS = ("/live", "/_nicegui_ws/socket.io/?EIO=4&transport=websocket")
@@ -23,8 +25,10 @@ def running(tmp_path_factory):
         yield there
 
 
-def test_ctrl_c_ends_it_without_a_fault(tmp_path):
-    assert started(tmp_path, "nanosat").end() == 0
+@pytest.mark.parametrize("number", thorough.some(STOPPING[::-1], 1))
+def test_ctrl_c_and_its_like_end_it_without_a_fault(tmp_path, number):
+    assert started(tmp_path, "nanosat").end(number) == 0
+    assert "Traceback" not in (tmp_path / "printed.txt").read_text()
 
 
 def here(running):

@@ -1,5 +1,6 @@
 """Fits and reports take seconds: each is made in a process of its own, and the view goes on."""
 
+import signal
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from multiprocessing import get_context
@@ -68,7 +69,11 @@ class Job:
 
 
 def carry_out(pipe: Pipe, task: Task) -> None:
-    """Carry out a task and report on it; the process's whole life."""
+    """Carry out a task and report on it; the process's whole life.
+
+    The runner ignores signals to stop; a task has nothing to put right and must not outlive it.
+    """
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     try:
         kept = _keep(task) if isinstance(task, Keep) else _fit(task, pipe)
         pipe.send(("kept", kept))

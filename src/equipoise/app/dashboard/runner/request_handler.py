@@ -17,6 +17,7 @@ from equipoise.model.errors import EquipoiseError, InputError
 from equipoise.model.units import MM
 
 FASTEST = 100.0  # times, chosen
+LEAVE = None  # a request of the server alone: a page has no word for it
 
 
 class Desk:
@@ -30,11 +31,14 @@ class Desk:
     def handle(self, longest: float) -> None:
         """Wait so long (s) at most for a request, and carry out what has come.
 
-        Raises EOFError where the other end of the pipe is closed.
+        Raises EOFError where the other end of the pipe is closed, or says that it leaves.
         """
         wait = longest
         while self._pipe.poll(wait):
-            self._deal(self._pipe.recv())
+            request = self._pipe.recv()
+            if request is LEAVE:
+                raise EOFError
+            self._deal(request)
             wait = 0.0
 
     def turn(self) -> None:

@@ -3,10 +3,9 @@
 It receives requests and sends its messages through one pipe. When the pipe breaks, because the
 server has ended or crashed, a running procedure is ended, every mass is halted, and the process
 ends.
-Ctrl-C reaches the server alone.
+Signals to stop reach the server alone.
 """
 
-import signal
 from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.request_handler import Desk
 from equipoise.app.dashboard.runner.runner import Runner
+from equipoise.hardware.bench.stop_signals import leave_to_commander
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -39,7 +39,7 @@ class Opening:
 
 def run_runner(pipe: Pipe, opening: Opening) -> None:
     """Run until the pipe breaks; the process's whole life."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    leave_to_commander()
     try:
         with _opened(opening) as station:
             pipe.send(("ready", None))

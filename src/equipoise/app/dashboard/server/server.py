@@ -16,11 +16,13 @@ from fastapi.staticfiles import StaticFiles
 from nicegui import core, ui
 
 from equipoise.app.dashboard.protocol.data_folder import within
+from equipoise.app.dashboard.runner.request_handler import LEAVE
 from equipoise.app.dashboard.runner.runner_process import Opening, run_runner
 from equipoise.app.dashboard.server.broadcast import GONE, Watch
 from equipoise.app.dashboard.server.gate import LARGEST, Doors, Gate
 from equipoise.app.dashboard.server.layout import build
 from equipoise.app.dashboard.server.request_queue import Counter
+from equipoise.hardware.bench.stop_signals import HANG_UP, handled
 from equipoise.model.errors import EquipoiseError, InputError
 
 STATIC = Path(__file__).parents[1] / "static"
@@ -49,7 +51,12 @@ class RemoteRunner:
             raise EquipoiseError(what)
 
     def close(self) -> None:
-        """Let it halt the bench and end."""
+        """Let it halt the bench and end.
+
+        It is told so: a thread that reads from the pipe keeps it open although it was closed here.
+        """
+        with suppress(OSError):
+            self.pipe.send(LEAVE)
         self.pipe.close()
         self._process.join(LEAVING)
         if self._process.is_alive():
@@ -129,8 +136,10 @@ async def _shown(page: WebSocket, watch: Watch) -> None:
 
 
 def serve(app: Gate, at: socket.socket) -> None:
-    """Serve until Ctrl-C."""
+    """Serve until Ctrl-C and its like; the server knows of two of these signals by itself."""
     config = uvicorn.Config(
         app, log_level="warning", ws_max_size=LARGEST, timeout_graceful_shutdown=1, access_log=False
     )
-    uvicorn.Server(config).run(sockets=[at])
+    server = uvicorn.Server(config)
+    with handled(HANG_UP, server.handle_exit):
+        server.run(sockets=[at])
