@@ -2,10 +2,10 @@
 
 import pytest
 
-from equipoise.hardware.boards.grbl_explained import GrblExplained
+from equipoise.hardware.boards.grbl.explained import GrblExplained
 from equipoise.hardware.boards.registry import BOARDS, EXPLAINED
-from equipoise.hardware.boards.tmcl_explained import TmclExplained
-from equipoise.hardware.boards.tmcl_words import Request, packed
+from equipoise.hardware.boards.tmcl.explained import TmclExplained
+from equipoise.hardware.boards.tmcl.words import Request, packed
 from equipoise.model.units import MM
 from tests.support.board_wire import Wire
 

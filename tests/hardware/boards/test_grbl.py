@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from equipoise.hardware.boards.grbl_report import (
+from equipoise.hardware.boards.grbl.report import (
     Code,
     Greeting,
     MachineState,
@@ -13,7 +13,7 @@ from equipoise.hardware.boards.grbl_report import (
     Word,
     parsed,
 )
-from equipoise.hardware.boards.grbl_settings import disagreement
+from equipoise.hardware.boards.grbl.settings import disagreement
 from equipoise.model.units import MM
 from tests.support.board_wire import BED, Wire, board_of
 

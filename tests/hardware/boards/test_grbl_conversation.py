@@ -9,10 +9,10 @@ import copy
 import numpy as np
 import pytest
 
-from equipoise.hardware.boards.grbl_halt import Halting, Wish
-from equipoise.hardware.boards.grbl_report import MachineState, Status
-from equipoise.hardware.boards.grbl_settings import late_to_stop, longest_homing
-from equipoise.hardware.boards.grbl_talk import GrblTalk
+from equipoise.hardware.boards.grbl.halt import Halting, Wish
+from equipoise.hardware.boards.grbl.report import MachineState, Status
+from equipoise.hardware.boards.grbl.settings import late_to_stop, longest_homing
+from equipoise.hardware.boards.grbl.talk import GrblTalk
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.driver_protocol import LEG, Phase

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from equipoise.hardware.boards.tmcl import Tmcl
-from equipoise.hardware.boards.tmcl_settings import disagreement, guards, questions, speed_value
-from equipoise.hardware.boards.tmcl_talk import Answer, Talk
-from equipoise.hardware.boards.tmcl_words import Reply, Request, packed, replies_in
+from equipoise.hardware.boards.tmcl.driver import Tmcl
+from equipoise.hardware.boards.tmcl.settings import disagreement, guards, questions, speed_value
+from equipoise.hardware.boards.tmcl.talk import Answer, Talk
+from equipoise.hardware.boards.tmcl.words import Reply, Request, packed, replies_in
 from equipoise.hardware.emulated.tmcl import EmulatedTmcl
 from equipoise.hardware.transport.conversation import Tally
 from equipoise.model.units import MM

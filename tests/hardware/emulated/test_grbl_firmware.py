@@ -9,7 +9,7 @@ import re
 
 import pytest
 
-from equipoise.hardware.emulated.grbl import EmulatedGrbl
+from equipoise.hardware.emulated.grbl.firmware import EmulatedGrbl
 from equipoise.model.units import MM
 from tests.support.board_wire import BED, board_of
 

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Sequence
 
-from equipoise.hardware.boards.grbl import Grbl
-from equipoise.hardware.boards.grbl_explained import GrblExplained
-from equipoise.hardware.boards.tmcl import Tmcl
-from equipoise.hardware.boards.tmcl_explained import TmclExplained
+from equipoise.hardware.boards.grbl.driver import Grbl
+from equipoise.hardware.boards.grbl.explained import GrblExplained
+from equipoise.hardware.boards.tmcl.driver import Tmcl
+from equipoise.hardware.boards.tmcl.explained import TmclExplained
 from equipoise.hardware.transport.driver_protocol import BoardDriver
 from equipoise.hardware.transport.explained_bytes import Explained
 from equipoise.model.hardware import MotorBoard

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from equipoise.hardware.emulated.camera import EmulatedCamera
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor
-from equipoise.hardware.emulated.grbl import EmulatedGrbl
+from equipoise.hardware.emulated.grbl.firmware import EmulatedGrbl
 from equipoise.hardware.emulated.line_protocol import EmulatedLineProtocol
 from equipoise.hardware.emulated.mavlink import EmulatedMavlink
 from equipoise.hardware.emulated.natnet import EmulatedNatNet

@@ -5,7 +5,7 @@ mm, mm/min, mm/s^2, as on the board. Source: Grbl 1.1 wiki, "Configuration".
 
 from collections.abc import Mapping, Sequence
 
-from equipoise.hardware.emulated.grbl_motion import LETTERS
+from equipoise.hardware.emulated.grbl.motion import LETTERS
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.testbed import SlidingMass
 from equipoise.model.units import MINUTE, MM

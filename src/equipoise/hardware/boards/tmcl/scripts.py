@@ -13,9 +13,9 @@ Firmware Manual V1.31, 4.6.13 "RFS", chapter 6 "Global parameters", bank 2.
 
 from collections.abc import Callable, Mapping, Sequence
 
-from equipoise.hardware.boards import tmcl_words as w
-from equipoise.hardware.boards.tmcl_settings import questions
-from equipoise.hardware.boards.tmcl_words import Request
+from equipoise.hardware.boards.tmcl import words as w
+from equipoise.hardware.boards.tmcl.settings import questions
+from equipoise.hardware.boards.tmcl.words import Request
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass

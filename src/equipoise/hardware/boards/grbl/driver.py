@@ -7,7 +7,7 @@ a leg is left of what was sent before.
     displacement = position - zero, or the negative of it where the axis is reversed
 
 A jog that arrives while the one before ends may turn into state Run, in which jogs are refused
-(error:8): the next leg then waits for Idle. How a halt ends is in ``grbl_halt``.
+(error:8): the next leg then waits for Idle. How a halt ends is in ``halt``.
 
 A board that has just been opened is reset: what it did before is over, and it must home. A reset
 while it stands keeps its position. Masses without switches are put at home by a person, whose
@@ -18,14 +18,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.grbl_codes import IDLE_ERROR, alarm_text, error_text
-from equipoise.hardware.boards.grbl_halt import Halting, Wish
-from equipoise.hardware.boards.grbl_lines import (
+from equipoise.hardware.boards.grbl.codes import IDLE_ERROR, alarm_text, error_text
+from equipoise.hardware.boards.grbl.halt import Halting, Wish
+from equipoise.hardware.boards.grbl.lines import (
     displacements,
     machine_position,
     step_command,
 )
-from equipoise.hardware.boards.grbl_report import (
+from equipoise.hardware.boards.grbl.report import (
     Code,
     Greeting,
     MachineState,
@@ -34,16 +34,16 @@ from equipoise.hardware.boards.grbl_report import (
     Status,
     Word,
 )
-from equipoise.hardware.boards.grbl_route import Route
-from equipoise.hardware.boards.grbl_settings import (
+from equipoise.hardware.boards.grbl.route import Route
+from equipoise.hardware.boards.grbl.settings import (
     LETTERS,
     disagreement,
     late_to_stop,
     longest_homing,
 )
-from equipoise.hardware.boards.grbl_states import LOST, POLLS, QUIET, TAKES_LEGS, WAYS_OUT
-from equipoise.hardware.boards.grbl_talk import CANCEL, HOLD, RESUME, GrblTalk, Step
-from equipoise.hardware.boards.grbl_watch import too_late
+from equipoise.hardware.boards.grbl.states import LOST, POLLS, QUIET, TAKES_LEGS, WAYS_OUT
+from equipoise.hardware.boards.grbl.talk import CANCEL, HOLD, RESUME, GrblTalk, Step
+from equipoise.hardware.boards.grbl.watch import too_late
 from equipoise.hardware.transport.driver_protocol import (
     POLL,
     BoardDriver,

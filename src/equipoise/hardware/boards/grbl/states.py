@@ -1,6 +1,6 @@
 """What the states of a Grbl board mean to its driver. Source: Grbl 1.1 wiki, "Interface"."""
 
-from equipoise.hardware.boards.grbl_report import MachineState
+from equipoise.hardware.boards.grbl.report import MachineState
 from equipoise.hardware.transport.driver_protocol import POLL_HALTED, POLL_MOVING, Phase
 
 POLLS = {Phase.MOVING: POLL_MOVING, Phase.HOMING: POLL_MOVING, Phase.HALTED: POLL_HALTED}

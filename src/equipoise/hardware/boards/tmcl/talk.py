@@ -7,7 +7,7 @@ nothing is asked again: an answer that comes late would be taken for that of the
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from equipoise.hardware.boards.tmcl_words import Request, packed, refusal, replies_in
+from equipoise.hardware.boards.tmcl.words import Request, packed, refusal, replies_in
 from equipoise.hardware.transport.attended_time import AttendedTime
 from equipoise.hardware.transport.command_queue import Command, CommandQueue
 from equipoise.hardware.transport.conversation import Tally

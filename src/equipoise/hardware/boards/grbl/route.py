@@ -6,8 +6,8 @@ where masses stand, once they do.
 
 from collections.abc import Mapping, Sequence
 
-from equipoise.hardware.boards.grbl_lines import jog
-from equipoise.hardware.boards.grbl_talk import Step
+from equipoise.hardware.boards.grbl.lines import jog
+from equipoise.hardware.boards.grbl.talk import Step
 from equipoise.hardware.boards.legs import next_leg, time_left
 from equipoise.hardware.transport.command_queue import Command
 from equipoise.hardware.transport.driver_protocol import LEG

@@ -14,7 +14,7 @@ from collections import deque
 from collections.abc import Iterator
 from enum import StrEnum
 
-from equipoise.hardware.boards.grbl_report import Code, Greeting, Report, Status, Word, parsed
+from equipoise.hardware.boards.grbl.report import Code, Greeting, Report, Status, Word, parsed
 from equipoise.hardware.transport.attended_time import AttendedTime
 from equipoise.hardware.transport.command_queue import CommandQueue
 from equipoise.hardware.transport.conversation import Tally

@@ -1,7 +1,7 @@
 """What goes back and forth with a TMCL module, in words."""
 
-from equipoise.hardware.boards import tmcl_words as w
-from equipoise.hardware.boards.tmcl_scripts import BANK, VARIABLE
+from equipoise.hardware.boards.tmcl import words as w
+from equipoise.hardware.boards.tmcl.scripts import BANK, VARIABLE
 
 COMMANDS = {
     w.MST: "stop motor {0}",

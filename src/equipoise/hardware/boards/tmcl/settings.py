@@ -12,9 +12,9 @@ V1.01, 8.1; TMCM-3212 TMCL Firmware Manual V1.07, 6.5.
 
 from collections.abc import Mapping, Sequence
 
-from equipoise.hardware.boards import tmcl_words as w
-from equipoise.hardware.boards.tmcl_talk import Answer
-from equipoise.hardware.boards.tmcl_words import Request, refusal
+from equipoise.hardware.boards.tmcl import words as w
+from equipoise.hardware.boards.tmcl.talk import Answer
+from equipoise.hardware.boards.tmcl.words import Request, refusal
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
 

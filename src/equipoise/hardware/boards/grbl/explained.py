@@ -2,9 +2,9 @@
 
 import re
 
-from equipoise.hardware.boards.grbl_codes import alarm_text, error_text
-from equipoise.hardware.boards.grbl_report import Code, Greeting, Report, Setting, Status, parsed
-from equipoise.hardware.boards.grbl_talk import CANCEL, HOLD, QUERY, RESET, RESUME
+from equipoise.hardware.boards.grbl.codes import alarm_text, error_text
+from equipoise.hardware.boards.grbl.report import Code, Greeting, Report, Setting, Status, parsed
+from equipoise.hardware.boards.grbl.talk import CANCEL, HOLD, QUERY, RESET, RESUME
 from equipoise.hardware.transport.line_splitter import Lines
 
 AT_ONCE = {

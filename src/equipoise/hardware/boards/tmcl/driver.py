@@ -1,6 +1,6 @@
 """Trinamic's stepper modules with TMCL firmware, in binary, over a serial line, USB or TCP.
 
-Everything is a script of requests (``tmcl_talk``). When the port opens, the driver reads the
+Everything is a script of requests (``talk``). When the port opens, the driver reads the
 module's version and settings, writes the speed of each mass, and sets a mark: a variable of the
 working memory, which is 0 again after a reset. While masses stand or move, it repeats a round:
 
@@ -15,12 +15,12 @@ TMCM-6110 TMCL Firmware Manual V1.31, 4.6 and chapters 5, 6.
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from equipoise.hardware.boards import tmcl_words as w
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.tmcl_scripts import CALLED, MARK, OBSERVED, Scripts, Steps
-from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_value
-from equipoise.hardware.boards.tmcl_talk import Talk
-from equipoise.hardware.boards.tmcl_words import Request, requested
+from equipoise.hardware.boards.tmcl import words as w
+from equipoise.hardware.boards.tmcl.scripts import CALLED, MARK, OBSERVED, Scripts, Steps
+from equipoise.hardware.boards.tmcl.settings import disagreement, guards, speed_value
+from equipoise.hardware.boards.tmcl.talk import Talk
+from equipoise.hardware.boards.tmcl.words import Request, requested
 from equipoise.hardware.transport.driver_protocol import (
     POLL,
     POLL_MOVING,

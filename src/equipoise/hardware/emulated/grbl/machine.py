@@ -17,9 +17,9 @@ from collections.abc import Callable, Sequence
 
 from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.emulated.device import Leg
-from equipoise.hardware.emulated.grbl_defaults import careful_settings
-from equipoise.hardware.emulated.grbl_motion import LETTERS, Motion
-from equipoise.hardware.emulated.grbl_states import Flag, State, Suspended
+from equipoise.hardware.emulated.grbl.defaults import careful_settings
+from equipoise.hardware.emulated.grbl.motion import LETTERS, Motion
+from equipoise.hardware.emulated.grbl.states import Flag, State, Suspended
 from equipoise.hardware.emulated.serial_line import BITS
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import MotorBoard

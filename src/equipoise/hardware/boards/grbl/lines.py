@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 
-from equipoise.hardware.boards.grbl_report import Status
-from equipoise.hardware.boards.grbl_settings import LETTERS
-from equipoise.hardware.boards.grbl_talk import Step
+from equipoise.hardware.boards.grbl.report import Status
+from equipoise.hardware.boards.grbl.settings import LETTERS
+from equipoise.hardware.boards.grbl.talk import Step
 from equipoise.hardware.boards.legs import Way
 from equipoise.hardware.transport.command_queue import Command
 from equipoise.model.hardware import Axis

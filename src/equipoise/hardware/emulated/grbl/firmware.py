@@ -2,16 +2,16 @@
 
 Written from the wiki's "Interface", "Jogging", "Configuration" and the published firmware's
 behaviour, independently of the driver. Only jogs and homing move; other G-code is answered and
-does nothing. What acts at once, and when no line is taken, is in ``grbl_machine``.
+does nothing. What acts at once, and when no line is taken, is in ``machine``.
 """
 
 import re
 from collections.abc import Callable
 
-from equipoise.hardware.emulated.grbl_defaults import homing_takes, shown
-from equipoise.hardware.emulated.grbl_machine import GrblMachine
-from equipoise.hardware.emulated.grbl_motion import LETTERS
-from equipoise.hardware.emulated.grbl_states import Flag, State
+from equipoise.hardware.emulated.grbl.defaults import homing_takes, shown
+from equipoise.hardware.emulated.grbl.machine import GrblMachine
+from equipoise.hardware.emulated.grbl.motion import LETTERS
+from equipoise.hardware.emulated.grbl.states import Flag, State
 from equipoise.model.units import MINUTE
 
 LINE = 79  # characters that a line may have

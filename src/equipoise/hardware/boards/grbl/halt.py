@@ -12,7 +12,7 @@ its published state machine (``protocol``, ``jog``).
 
 from enum import Enum
 
-from equipoise.hardware.boards.grbl_report import MachineState, Status
+from equipoise.hardware.boards.grbl.report import MachineState, Status
 
 
 class Wish(Enum):

@@ -1,0 +1,1 @@
+"""Trinamic modules with TMCL: the driver, its conversation, datagrams and settings."""

@@ -1,0 +1,1 @@
+"""An emulated Grbl board: the firmware, its machine, its motors."""
