@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from equipoise.hardware.camera.aruco import decoded, encoded
 from equipoise.hardware.camera.eye import Eye
+from equipoise.hardware.camera.layouts import grid
 from equipoise.hardware.camera.lens import Lens
 from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.sight import Sight
-from equipoise.hardware.camera.tag_board import TagBoard
 from equipoise.hardware.emulated.camera import QUALITY, renderer_of
 from equipoise.hardware.emulated.rendering import Appearance
 from equipoise.maths.attitude import difference, exponential, from_matrix, to_matrix
@@ -27,7 +27,7 @@ NEES = (0.7, 1.4)  # chosen: mean of e^T C^-1 e / 3; stated errors true within a
 OBSERVED = 0.97  # of pictures, chosen; what covers half of a board may cover all but one marker
 PICTURES = 20  # of each look, for a seed
 EYE = Eye(
-    TagBoard("4X4_50", 6, 5, 0.040, 0.010),
+    grid("4X4_50", (6, 5), 0.040, 0.010),
     Lens(1200.0, 1195.0, 645.3, 471.9, 1280, 960, (-0.12, 0.05, 0.001, -0.0007, 0.0)),
     np.eye(3),
 )

@@ -1,13 +1,13 @@
 """How well a bench's devices answer: what arrived, its defects, offset and drift of clocks."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
 from equipoise.hardware.links.arrival_statistics import Arrivals
 from equipoise.hardware.links.clock_sync import DeviceClock, drift_of, offset_of
 from equipoise.model.hardware import Gives
-from equipoise.model.reading import Counts
+from equipoise.model.reading import Counts, Rowless
 from equipoise.model.units import MS, PPM
 
 
@@ -29,6 +29,7 @@ class Health:
     counts: Counts  # messages
     arrivals: Arrivals | None = None  # rows
     clocks: Mapping[Gives, DeviceClock] = field(default_factory=dict[Gives, DeviceClock])
+    rowless: Sequence[Rowless] = ()  # messages without a row, a reason each
 
     @property
     def wrong(self) -> dict[Defect, int]:
@@ -48,7 +49,7 @@ class Health:
         """All of it, for people."""
         good = f"{self.counts.good} messages"
         if self.counts.foreign:
-            good += f", {self.counts.foreign} of other kinds"
+            good += f", {self.counts.foreign} of other kinds{self._rowless}"
         if self.arrivals is not None:
             good += f", {self.arrivals.kept} rows"
         wrong = ", ".join(f"{count} {what}" for what, count in self.wrong.items())
@@ -64,7 +65,17 @@ class Health:
         }
         kept = {} if self.arrivals is None else {"rows": self.arrivals.kept}
         messages = {"messages": self.counts.good, "others": self.counts.foreign}
-        return {"device": self.device, **messages, **kept, **self.wrong, "clocks": clocks}
+        without = [
+            {"code": each.reason.code.value, "count": each.count, **each.reason.numbers}
+            for each in self.rowless
+        ]
+        told = {"without_row": without} if without else {}
+        return {"device": self.device, **messages, **kept, **self.wrong, **told, "clocks": clocks}
+
+    @property
+    def _rowless(self) -> str:
+        told = "; ".join(f"{each.count}: {each.reason.sentence}" for each in self.rowless)
+        return f" ({told})" if told else ""
 
     def _clock(self, channel: Gives) -> str:
         clock = self.clocks[channel]

@@ -44,7 +44,8 @@ class SensorLink:
     def health(self) -> Health:
         """How well it answers."""
         name = f"sensor {self.unit.name}"
-        return Health(name, self.driver.counts, self.arrivals, dict(self.clocks))
+        rowless = tuple(self.driver.rowless.values())
+        return Health(name, self.driver.counts, self.arrivals, dict(self.clocks), rowless)
 
     def silent_for(self, t: float) -> float:
         """Return how long no row has come, s."""

@@ -3,7 +3,8 @@
 from abc import abstractmethod
 from collections.abc import Sequence
 
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Counts, Reading, Rowless
+from equipoise.model.reasons.reason import Code, Reason
 
 
 class Tally:
@@ -24,10 +25,11 @@ class SensorDriver(Tally):
     def __init__(self, greeting: bytes = b"") -> None:
         super().__init__()
         self._greeting, self._greet = greeting, True
+        self.rowless: dict[Code, Rowless] = {}  # messages without a row, since the port was opened
 
     def opened(self) -> None:
         """Begin anew: the port has just been opened, half a message of before is void."""
-        self.counts, self._greet = Counts(), True
+        self.counts, self.rowless, self._greet = Counts(), {}, True
 
     @abstractmethod
     def feed(self, data: bytes) -> Sequence[Reading]:
@@ -42,3 +44,9 @@ class SensorDriver(Tally):
         """Count a message by its rows and return them; no row: it is broken, None: of no use."""
         self.count(good=bool(readings), corrupt=readings == [], foreign=readings is None)
         return readings or []
+
+    def without_row(self, reason: Reason) -> list[Reading]:
+        """Count a message that is whole and gives no row, with its reason; return no row."""
+        before = self.rowless.get(reason.code)
+        self.rowless[reason.code] = Rowless(reason, 1 if before is None else before.count + 1)
+        return self.counted(None)
