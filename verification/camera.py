@@ -147,14 +147,14 @@ def scaled(board: TagBoard, boards: int, seed: int) -> Scaled:
 class OfSeed:
     """All of one seed."""
 
-    looks: list[Observed]
+    measurements: list[Observed]
     boards: list[Scaled]
 
 
 def of_seed(seed: int) -> OfSeed:
     """Return all looks and all boards of one seed."""
-    looks = [observed(measurement, PICTURES, seed) for measurement in MEASUREMENTS.values()]
-    return OfSeed(looks, [scaled(board, count, seed) for board, count in BOARDS.values()])
+    measurements = [observed(measurement, PICTURES, seed) for measurement in MEASUREMENTS.values()]
+    return OfSeed(measurements, [scaled(board, count, seed) for board, count in BOARDS.values()])
 
 
 def rows_of(name: str, all_seeds: Sequence[Observed]) -> tuple[Row, ...]:
@@ -188,7 +188,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     rows = [
         row
         for k, name in enumerate(MEASUREMENTS)
-        for row in rows_of(name, [each.looks[k] for each in found])
+        for row in rows_of(name, [each.measurements[k] for each in found])
     ]
     rows += [
         row
@@ -200,11 +200,11 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     )
     claim = (
         f"Attitudes from drawn pictures of 6 x 5 markers of 40 mm, {AWAY:g} m away, 1280 x 960 px, "
-        f"leaning up to {LEANING:g} deg, after JPEG; {PICTURES * len(seeds)} of each look. Boards not as "
-        f"declared: their scale is wrong by up to {SCALE:.1%} along each axis, or tags stand "
-        "elsewhere than measured."
+        f"leaning up to {LEANING:g} deg, after JPEG; {PICTURES * len(seeds)} of each look. Boards "
+        f"not as declared have scales wrong by up to {SCALE:.1%} along each axis, or tags that "
+        "stand elsewhere than measured."
     )
-    worst = max(float(each.errors.max()) for seed in found for each in seed.looks)
+    worst = max(float(each.errors.max()) for seed in found for each in seed.measurements)
     return Result(
         "camera", claim, tuple(rows), (f"Greatest error of all looks: {worst:.3f} deg.", *notes)
     )

@@ -13,12 +13,13 @@ from equipoise.hardware.camera.pose import Pose  # noqa: E402
 from equipoise.hardware.camera.sight import Sight  # noqa: E402
 from equipoise.maths.attitude import difference, from_matrix  # noqa: E402
 from equipoise.model.units import DEG  # noqa: E402
-from tests.hardware.camera.test_camera import SETTINGS, unit  # noqa: E402
+from tests.hardware.camera.test_camera import unit  # noqa: E402
 from tests.support import thorough  # noqa: E402
 from verification import camera as check  # noqa: E402
 
 EYE = eye_of(unit(k1=0.0).settings, "t")
 DOT, FINER = 0.00025, 2  # m of the sheet, samples of a pixel each way
+NOISE = 2 * np.random.default_rng(5).standard_normal((960, 1280))  # grey levels
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +45,7 @@ def picture(sheet, turn, place, scale, rng):
     whole = finer @ camera @ np.column_stack([turn[:, :2], place]) @ flat
     fine = cv2.warpPerspective(sheet, whole, (1280 * FINER, 960 * FINER), borderValue=(120,))
     grey = cv2.resize(fine, (1280, 960), interpolation=cv2.INTER_AREA).astype(float)
-    noisy = cv2.GaussianBlur(grey, (0, 0), 0.7) + 2 * rng.standard_normal(grey.shape)
+    noisy = cv2.GaussianBlur(grey, (0, 0), 0.7) + np.roll(NOISE, rng.integers(960 * 1280))
     return np.clip(np.rint(noisy), 0, 255).astype(np.uint8)
 
 
@@ -68,11 +69,11 @@ def errors_of(sheet, scale, count, seed):
     ids=["true", "0.3 % short in X", "0.1 % long in Y", "0.5 % each way", "0.5 % short"],
 )
 def test_a_print_of_another_scale_errs_as_stated(sheet, scale):
-    """Mean square of error / sd: 1 within 0.24 (one sd of 36). With the scale taken as exact it is
+    """Mean square of error / sd: 1 within 0.29 (one sd of 24).
 
-    700 at 0.3 % along X, and errors are 0.3 deg.
+    With the scale taken as exact it is 670 at 0.3 % along X, and errors are 0.3 deg.
     """
-    off, sds = errors_of(sheet, scale, thorough.count(40, 12), 3)
+    off, sds = errors_of(sheet, scale, thorough.count(40, 8), 3)
     assert 0.4 < np.mean((off / sds) ** 2) < 1.8
     assert np.median(np.linalg.norm(off, axis=1)) < 0.015 * DEG
 
@@ -84,10 +85,10 @@ def test_a_common_scale_turns_nothing_and_is_not_learnt(sheet):
     for _ in range(3):
         place = np.array([0.0, 0.0, 0.7])
         pose = sight.observe(picture(sheet, check.leaning(rng), place, (0.995, 0.995), rng))
-    both, apart = np.array([1.0, 1.0]) / np.sqrt(2), np.array([1.0, -1.0]) / np.sqrt(2)
+    both, between = np.array([1.0, 1.0]) / np.sqrt(2), np.array([1.0, -1.0]) / np.sqrt(2)
     assert np.sqrt(both @ pose.board.covariance @ both) > 0.0029
-    assert np.sqrt(apart @ pose.board.covariance @ apart) < 0.0003
-    assert abs(apart @ pose.board.mean) < 0.0005
+    assert np.sqrt(between @ pose.board.covariance @ between) < 0.0003
+    assert abs(between @ pose.board.mean) < 0.0005
 
 
 def test_what_is_common_to_all_pictures_is_stated_and_never_more_than_all(sheet):
@@ -98,6 +99,3 @@ def test_what_is_common_to_all_pictures_is_stated_and_never_more_than_all(sheet)
     assert np.linalg.eigvalsh(pose.covariance - pose.common).min() > 0
     assert np.linalg.eigvalsh(pose.common).min() > -1e-15
     assert pose.common[0, 0] > 0
-
-
-assert SETTINGS["columns"] * SETTINGS["rows"] == 30

@@ -178,7 +178,7 @@ def test_an_aprilgrid_as_kalibr_prints_it_is_found_with_its_axes():
     ],
     ids=["aprilgrid", "single", "tags"],
 )
-def test_every_layout_is_seen_with_errors_as_stated(board, within):
+def test_every_layout_gives_attitudes_with_errors_as_stated(board, within):
     """Eight pictures of a true board: every one gives an attitude within 4 sd, and so many deg."""
     poses, turns = observed(board, count=8)
     assert all(isinstance(pose, Pose) for pose in poses)
@@ -221,7 +221,7 @@ def hidden(picture, board, numbers, turn, lens):
     return picture
 
 
-def test_a_picture_with_too_few_markers_says_what_was_seen():
+def test_a_picture_with_too_few_markers_states_how_many():
     board, lens, turn = grid("4X4_50", (3, 1), 0.040, 0.010), check.EYE.lens, DOWN
     eye = replace(check.EYE, board=board)
     picture = renderer_of(eye, Appearance()).picture(turn, np.array([0.0, 0.0, 0.7]))
@@ -237,7 +237,7 @@ def test_a_picture_with_too_few_markers_says_what_was_seen():
     assert alone.numbers["wanted"] == 1
 
 
-def test_a_camera_tells_in_its_health_what_its_pictures_lack():
+def test_the_health_of_a_camera_states_what_its_pictures_lack():
     device = unit("camera:0")
     driver = Camera(device)
     link = SensorLink(device, driver, None, {"attitude": 0.2})

@@ -411,7 +411,7 @@ def test_markers_without_corners_are_reported_with_what_to_try(views):
 @pytest.mark.parametrize(
     ("rows", "legacy", "corners"), [(6, True, 35), (6, False, 0), (5, True, 28)]
 )
-def test_a_chessboard_in_the_legacy_pattern_needs_to_be_told(rows, legacy, corners):
+def test_a_chessboard_in_the_legacy_pattern_has_to_be_declared(rows, legacy, corners):
     """Drawn by OpenCV itself, in the pattern of releases before 4.6."""
     markers = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
     board = cv2.aruco.CharucoBoard((8, rows), 0.030, 0.022, markers)

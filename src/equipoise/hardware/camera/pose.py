@@ -80,8 +80,8 @@ def poses_of(
 def rivals(poses: Sequence[Pose]) -> list[Pose]:
     """Return the poses that fit about as well as the first, which is the best."""
     best, *others = poses
-    apart = [other for other in others if angle_between(other.turn, best.turn) > SAME]
-    return [other for other in apart if other.rms**2 <= WORSE * best.rms**2]
+    distinct = [other for other in others if angle_between(other.turn, best.turn) > SAME]
+    return [other for other in distinct if other.rms**2 <= WORSE * best.rms**2]
 
 
 def chosen(poses: Sequence[Pose], before: Matrix3 | None) -> Pose | Reason:
@@ -148,15 +148,15 @@ def _step(observed: Offsets, sd: float | None, information: Floats, back: Floats
     if np.count_nonzero(used) < ENOUGH:
         return None
     J, off, sd = observed.slopes[used], observed.off[used], robust if sd is None else sd
-    told = J.T @ J
-    whole, by = told / sd**2 + information, J.T @ off / sd**2 + information @ back
+    normal = J.T @ J
+    whole, by = normal / sd**2 + information, J.T @ off / sd**2 + information @ back
     inverse = inverse_spd(whole)
     step = inverse @ by
     left = off - J @ step
     squares = float(left @ left)
-    free = len(off) - float(np.sum(inverse * told)) / sd**2
+    free = len(off) - float(np.sum(inverse * normal)) / sd**2
     after = max((squares / free) ** 0.5, FLOOR)
-    stated = inverse_spd(told / after**2 + information)
+    stated = inverse_spd(normal / after**2 + information)
     return Step(step, stated, after, (squares / len(off)) ** 0.5)
 
 

@@ -111,10 +111,10 @@ def other_size(picture: Picture, lens: Lens) -> Reason | None:
     return Reason(Unseen.OTHER_SIZE, numbers={"width": width, "height": height} | wanted)
 
 
-def _too_few(seen: int, others: int, wanted: int) -> Reason:
+def _too_few(count: int, others: int, wanted: int) -> Reason:
     """Return why there is no attitude; a board of more than one marker wants two."""
-    numbers = {"seen": seen, "others": others, "wanted": wanted}
-    if seen:
+    numbers = {"seen": count, "others": others, "wanted": wanted}
+    if count:
         return Reason(Unseen.ONE_MARKER, numbers=numbers)
     return Reason(Unseen.OTHER_MARKERS if others else Unseen.NO_MARKER, numbers=numbers)
 

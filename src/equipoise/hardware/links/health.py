@@ -69,13 +69,20 @@ class Health:
             {"code": each.reason.code.value, "count": each.count, **each.reason.numbers}
             for each in self.rowless
         ]
-        told = {"without_row": without} if without else {}
-        return {"device": self.device, **messages, **kept, **self.wrong, **told, "clocks": clocks}
+        rowless = {"without_row": without} if without else {}
+        return {
+            "device": self.device,
+            **messages,
+            **kept,
+            **self.wrong,
+            **rowless,
+            "clocks": clocks,
+        }
 
     @property
     def _rowless(self) -> str:
-        told = "; ".join(f"{each.count}: {each.reason.sentence}" for each in self.rowless)
-        return f" ({told})" if told else ""
+        text = "; ".join(f"{each.count}: {each.reason.sentence}" for each in self.rowless)
+        return f" ({text})" if text else ""
 
     def _clock(self, channel: Gives) -> str:
         clock = self.clocks[channel]
