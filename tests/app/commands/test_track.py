@@ -64,7 +64,7 @@ def test_a_video_becomes_a_recording(equipoise, tmp_path, pictures):
     done = equipoise("track", "run.avi", "--testbed", "sputnix", "--out", "run.csv")
     assert done.code == 0, done.err
     assert "found in 11 of 12 pictures" in done.out
-    assert "~ 1 pictures: no marker seen, 2 wanted" in done.out
+    assert "~ 1 pictures: no marker found, 2 wanted" in done.out
     assert "deg per axis" in done.out
     assert "the same in all pictures" in done.out
     observed_rightly(tmp_path / "run.csv")
@@ -190,7 +190,7 @@ def test_a_camera_on_the_network_is_watched(equipoise, tmp_path):
         (("nothing.avi", "--testbed", "sputnix", "--out", "a.csv"), "no such file"),
         (
             ("blank", "--testbed", "sputnix", "--rate-hz", 5, "--out", "a.csv"),
-            "none of 1 pictures (1: no marker seen, 2 wanted)",
+            "none of 1 pictures (1: no marker found, 2 wanted)",
         ),
         (("small", "--testbed", "sputnix", "--rate-hz", 5, "--out", "a.csv"), "1280 x 960 px"),
         (("text.avi", "--testbed", "sputnix", "--out", "a.csv"), "no video"),

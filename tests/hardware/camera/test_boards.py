@@ -227,8 +227,8 @@ def test_a_picture_with_too_few_markers_states_how_many():
     picture = renderer_of(eye, Appearance()).picture(turn, np.array([0.0, 0.0, 0.7]))
     one = Sight(board, lens, "t").observe(hidden(picture, board, (0, 2), turn, lens))
     assert one.code is Unseen.ONE_MARKER
-    assert (one.numbers["seen"], one.numbers["wanted"]) == (1, 2)
-    assert one.sentence == "1 marker seen, 2 wanted"
+    assert (one.numbers["found"], one.numbers["wanted"]) == (1, 2)
+    assert one.sentence == "1 marker found, 2 wanted"
     none = Sight(board, lens, "t").observe(hidden(picture, board, (0, 1, 2), turn, lens))
     assert (none.code, none.numbers["wanted"]) == (Unseen.NO_MARKER, 2)
     others = Sight(grid("4X4_50", (3, 1), 0.04, 0.01, first=9), lens, "t").observe(picture)
@@ -251,9 +251,9 @@ def test_the_health_of_a_camera_states_what_its_pictures_lack():
         ("no_marker", 2),
         ("other_size", 1),
     ]
-    assert (without[0]["seen"], without[0]["wanted"]) == (0, 2)
+    assert (without[0]["found"], without[0]["wanted"]) == (0, 2)
     assert (without[1]["width"], without[1]["lens_width"]) == (64, 1280)
-    assert "2: no marker seen, 2 wanted; 1: a picture of 64 x 48 px" in link.health.sentence
+    assert "2: no marker found, 2 wanted; 1: a picture of 64 x 48 px" in link.health.sentence
     driver.opened()
     assert "without_row" not in link.health.data
 

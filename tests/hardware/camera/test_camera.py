@@ -400,7 +400,7 @@ def test_markers_without_corners_are_reported_with_what_to_try(views):
     """
     observed, _ = views
     bare = [replace(v, board=np.empty((0, 3)), picture=np.empty((0, 2))) for v in observed]
-    with pytest.raises(InputError, match="in 20 up to 24 markers seen and no corner") as caught:
+    with pytest.raises(InputError, match="in 20 up to 24 markers found and no corner") as caught:
         lens_from(bare, (640, 480))
     assert "--legacy" in str(caught.value)
     none = [replace(view, markers=0) for view in bare]

@@ -54,7 +54,7 @@ def _without_corners(views: Sequence[ChessView], found: str, wanted: str) -> tup
     bare = [view.markers for view in views if view.markers and not len(view.picture)]
     if bare:
         most = f"{max(bare)} markers" if max(bare) > 1 else "1 marker"
-        found += f"; in {len(bare)} up to {most} seen and no corner between them"
+        found += f"; in {len(bare)} up to {most} found and no corner between them"
         wanted += ": try --legacy, or --columns and --rows as the print has them"
     elif not any(view.markers for view in views):
         found += ", and no marker in any"

@@ -113,7 +113,7 @@ def other_size(picture: Picture, lens: Lens) -> Reason | None:
 
 def _too_few(count: int, others: int, wanted: int) -> Reason:
     """Return why there is no attitude; a board of more than one marker wants two."""
-    numbers = {"seen": count, "others": others, "wanted": wanted}
+    numbers = {"found": count, "others": others, "wanted": wanted}
     if count:
         return Reason(Unseen.ONE_MARKER, numbers=numbers)
     return Reason(Unseen.OTHER_MARKERS if others else Unseen.NO_MARKER, numbers=numbers)

@@ -4,18 +4,18 @@ from equipoise.model.reasons.reason import Code
 
 
 class Unseen(Code):
-    """One cause: what was seen in the picture, and what was wanted."""
+    """One cause: what was found in the picture, and what was wanted."""
 
     OTHER_SIZE = (
         "other_size",
         "a picture of {width:g} x {height:g} px, and the lens is known for {lens_width:g} x "
         "{lens_height:g} px",
     )
-    NO_MARKER = "no_marker", "no marker seen, {wanted:g} wanted"
+    NO_MARKER = "no_marker", "no marker found, {wanted:g} wanted"
     OTHER_MARKERS = (
         "other_markers",
-        "no marker of the board seen, {wanted:g} wanted; markers with other ids: {others:g}",
+        "no marker of the board found, {wanted:g} wanted; markers with other ids: {others:g}",
     )
-    ONE_MARKER = "one_marker", "1 marker seen, {wanted:g} wanted"
-    NO_FIT = "no_fit", "markers seen, and no attitude fits their borders"
+    ONE_MARKER = "one_marker", "1 marker found, {wanted:g} wanted"
+    NO_FIT = "no_fit", "markers found, and no attitude fits their borders"
     AMBIGUOUS = "ambiguous", "two attitudes fit alike"
