@@ -1,7 +1,7 @@
 """What is connected, motor boards, sensors and limits: their tables, and their records in SI."""
 
 from collections.abc import Sequence
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
 import numpy as np
 from pydantic import Field
@@ -139,7 +139,7 @@ def _check_once(words: list[str], where: str, shown: str, wanted: str) -> None:
 
 
 def _setting(value: str | float | bool | list[str] | list[dict[str, float]]) -> model.Setting:
-    return tuple(value) if isinstance(value, list) else value  # pyright: ignore
+    return cast("model.Setting", tuple(value)) if isinstance(value, list) else value
 
 
 def _rotation(rows: list[list[float]], where: str) -> Matrix3:
