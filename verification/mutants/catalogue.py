@@ -306,6 +306,14 @@ HARDWARE = _of(
      "app/commands/test_captured_bytes.py"),
     ("bench/atomic_message.py", "for number in before:", "for number in ():",
      "hardware/bench/test_atomic_message.py"),
+    ("camera/board_errors.py", "SCALE_SD = 0.003", "SCALE_SD = 0.00003",
+     "hardware/camera/test_board_scale.py::test_a_print_of_another_scale_errs_as_stated"),
+    ("camera/board_errors.py", "np.cross([0.0, 0.0, 1.0], off)", "np.cross([0.0, 0.0, -1.0], off)",
+     "hardware/camera/test_boards.py::test_errors_of_a_board_move_its_borders_as_said"),
+    ("camera/layouts.py", "rotation=math.pi", "rotation=0.0",
+     "hardware/camera/test_boards.py::test_an_aprilgrid_as_kalibr_prints_it_is_found_with_its_axes"),
+    ("camera/borders.py", "(by_point @ turn)[:, None]", "-(by_point @ turn)[:, None]",
+     "hardware/camera/test_board_scale.py::test_a_print_of_another_scale_errs_as_stated"),
 )  # fmt: skip
 
 APP = _of(

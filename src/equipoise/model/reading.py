@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from equipoise.model.hardware import Gives
+from equipoise.model.reasons.reason import Reason
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,3 +27,11 @@ class Counts:
     good: int = 0  # messages understood
     corrupt: int = 0  # broken: checksum, half a line, a number that is none
     foreign: int = 0  # whole, and of no use to us
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rowless:
+    """Why messages that are whole gave no row, as a camera's picture without its board."""
+
+    reason: Reason  # of the last one with this code
+    count: int  # messages with this code

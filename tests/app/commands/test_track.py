@@ -14,8 +14,10 @@ from equipoise.hardware.camera.eye import eye_of  # noqa: E402
 from equipoise.hardware.emulated.camera import EmulatedCamera, renderer_of  # noqa: E402
 from equipoise.hardware.emulated.counterpart import TcpCounterpart  # noqa: E402
 from equipoise.hardware.emulated.rendering import Appearance  # noqa: E402
+from equipoise.io.documents.camera_file import read_camera_keys  # noqa: E402
 from equipoise.io.recording.recording_file import read_recording  # noqa: E402
-from equipoise.io.testbed.presets import read_preset  # noqa: E402
+from equipoise.io.testbed.presets import preset_text, read_preset  # noqa: E402
+from equipoise.io.testbed.testbed_file import read_testbed  # noqa: E402
 from equipoise.maths.attitude import difference, from_euler321, to_matrix  # noqa: E402
 from equipoise.model.recording import Recording, Samples  # noqa: E402
 from equipoise.model.units import DEG  # noqa: E402
@@ -62,8 +64,9 @@ def test_a_video_becomes_a_recording(equipoise, tmp_path, pictures):
     done = equipoise("track", "run.avi", "--testbed", "sputnix", "--out", "run.csv")
     assert done.code == 0, done.err
     assert "found in 11 of 12 pictures" in done.out
-    assert "~ 1 pictures without the board" in done.out
+    assert "~ 1 pictures: no marker found, 2 wanted" in done.out
     assert "deg per axis" in done.out
+    assert "the same in all pictures" in done.out
     observed_rightly(tmp_path / "run.csv")
 
 
@@ -85,6 +88,52 @@ def test_a_folder_with_a_board_and_a_lens(equipoise, tmp_path, pictures):
     without = equipoise(*words)
     assert without.code == 2
     assert "--rate-hz" in without.err
+
+
+def test_a_board_of_measured_tags_and_an_aprilgrid_are_declared_in_a_file(equipoise, tmp_path):
+    """Both keys' files say the board that is drawn; `print-board` writes the AprilGrid's."""
+    done = equipoise(
+        "print-board", "--out", "a.png", "--keys", "april.toml", "--columns", 4, "--rows", 3,
+        "--marker-mm", 50, "--spacing", 0.3,
+    )  # fmt: skip
+    assert done.code == 0, done.err
+    assert "245 x 180 mm" in done.out
+    (tmp_path / "tags.toml").write_text(
+        'layout = "tags"\nplace_sd_mm = 0.3\n'
+        "[[tag]]\nid = 3\nx_mm = -80\ny_mm = 0\nmarker_mm = 50\nrotation_deg = 17.0\n"
+        "[[tag]]\nid = 9\nx_mm = 70\ny_mm = 20.5\nmarker_mm = 60\n"
+    )
+    keys = ("width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2")
+    lens = "\n".join(f"{key} = {UNIT.settings[key]}" for key in keys)
+    (tmp_path / "lens.toml").write_text(lens.replace("1280.0", "1280").replace("960.0", "960"))
+    for name in ("april", "tags"):
+        settings = read_camera_keys(tmp_path / f"{name}.toml") | {k: UNIT.settings[k] for k in keys}
+        renderer = renderer_of(eye_of(settings, "t"), Appearance())
+        (tmp_path / name).mkdir()
+        turns = EYE.to_laboratory.T @ to_matrix(swing(3))
+        for k, turn in enumerate(turns):
+            picture = renderer.picture(turn, np.array([0.0, 0.0, 0.7]))
+            cv2.imwrite(str(tmp_path / name / f"{k}.png"), picture)
+        words = ("--board", f"{name}.toml", "--lens", "lens.toml", "--rate-hz", RATE)
+        done = equipoise("track", tmp_path / name, *words, "--out", f"{name}.csv")
+        assert done.code == 0, done.err
+        recording = read_recording(tmp_path / f"{name}.csv")
+        off = difference(recording.attitude.values, swing(3))
+        assert np.degrees(np.abs(off)).max() < 1.0
+
+
+def test_tags_of_a_testbed_file_reach_the_camera(tmp_path):
+    """As tables within the sensor's settings; written again they are the same."""
+    text = preset_text("sputnix")
+    begin = text.index("[hardware.sensor.settings]")
+    keys = 'layout = "tags"\nwidth_px = 1280\nheight_px = 960\n' + "".join(
+        f"{key} = 600.0\n" for key in ("fx_px", "fy_px", "cx_px", "cy_px")
+    )
+    tag = "[[hardware.sensor.settings.tag]]\nid = 4\nx_mm = 10.0\ny_mm = 0\nmarker_mm = 80.0\n"
+    (tmp_path / "bed.toml").write_text(f"{text[:begin]}[hardware.sensor.settings]\n{keys}{tag}")
+    (sensor,) = read_testbed(tmp_path / "bed.toml").hardware.sensors
+    (marker,) = eye_of(sensor.settings, "t").board.markers
+    assert (marker.number, marker.x, marker.side) == (4, 0.01, 0.08)
 
 
 def test_a_level_board_determines_the_up_direction(equipoise, tmp_path):
@@ -139,7 +188,10 @@ def test_a_camera_on_the_network_is_watched(equipoise, tmp_path):
     ("words", "said"),
     [
         (("nothing.avi", "--testbed", "sputnix", "--out", "a.csv"), "no such file"),
-        (("blank", "--testbed", "sputnix", "--rate-hz", 5, "--out", "a.csv"), "none of 1 pictures"),
+        (
+            ("blank", "--testbed", "sputnix", "--rate-hz", 5, "--out", "a.csv"),
+            "none of 1 pictures (1: no marker found, 2 wanted)",
+        ),
         (("small", "--testbed", "sputnix", "--rate-hz", 5, "--out", "a.csv"), "1280 x 960 px"),
         (("text.avi", "--testbed", "sputnix", "--out", "a.csv"), "no video"),
         (("blank", "--testbed", "nanosat", "--out", "a.csv"), "no camera"),

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 cv2 = pytest.importorskip("cv2", reason="the extra 'camera' is not installed")
 
 from equipoise.hardware.camera import aruco  # noqa: E402
+from equipoise.hardware.camera.board_errors import BoardErrors  # noqa: E402
 from equipoise.hardware.camera.calibration import lens_from  # noqa: E402
 from equipoise.hardware.camera.eye import (  # noqa: E402
     camera_to_laboratory,
@@ -19,13 +20,13 @@ from equipoise.hardware.camera.eye import (  # noqa: E402
     level_up,
     settings_of_lens,
 )
-from equipoise.hardware.camera.first_pose import Corners  # noqa: E402
+from equipoise.hardware.camera.layouts import grid  # noqa: E402
 from equipoise.hardware.camera.lens import Lens  # noqa: E402
-from equipoise.hardware.camera.pose import Pose, Unseen, chosen  # noqa: E402
+from equipoise.hardware.camera.pose import Pose, chosen  # noqa: E402
 from equipoise.hardware.camera.sight import Sight  # noqa: E402
-from equipoise.hardware.camera.tag_board import TagBoard, board_print  # noqa: E402
 from equipoise.hardware.emulated.camera import EmulatedCamera, renderer_of  # noqa: E402
-from equipoise.hardware.emulated.rendering import Appearance, Renderer, Sheet, project  # noqa: E402
+from equipoise.hardware.emulated.print_texture import Sheet  # noqa: E402
+from equipoise.hardware.emulated.rendering import Appearance, Renderer, project  # noqa: E402
 from equipoise.hardware.links.frame_transform import placed  # noqa: E402
 from equipoise.hardware.sensors.camera import Camera  # noqa: E402
 from equipoise.hardware.transport.mjpeg_stream import Chunks, Parts  # noqa: E402
@@ -38,6 +39,7 @@ from equipoise.maths.attitude import (  # noqa: E402
 )
 from equipoise.model.errors import InputError  # noqa: E402
 from equipoise.model.hardware import Port, SensorUnit  # noqa: E402
+from equipoise.model.reasons.picture_reasons import Unseen  # noqa: E402
 from equipoise.model.recording import Recording, Samples  # noqa: E402
 from equipoise.model.units import DEG  # noqa: E402
 from tests.support import thorough  # noqa: E402
@@ -77,30 +79,6 @@ def stream(device, attitudes, rate=5.0):
 
 
 # --- Geometry --------------------------------------------------------------------------------
-
-
-def test_corners_by_hand():
-    """Two markers of 40 mm with 10 mm between: 90 x 40 mm, the origin in the middle."""
-    board = TagBoard("4X4_50", 2, 1, 0.040, 0.010)
-    want = [[5, 20, 0], [45, 20, 0], [45, -20, 0], [5, -20, 0]]
-    np.testing.assert_allclose(1e3 * board.corners(1), want, atol=1e-12)
-    border = board.borders(1)
-    right = border.outward[:, 0] > 0.5
-    np.testing.assert_allclose(border.points[right, 0], 0.045)
-    assert np.count_nonzero(right) == len(border.points) / 4
-    assert np.all(np.sum(border.outward * (border.points - [0.025, 0, 0]), axis=1) > 0)
-
-
-def test_the_print_has_its_markers_where_the_board_says():
-    """At 300 dots per inch; found by the detector, which knows nothing of the board."""
-    board = TagBoard("APRILTAG_36H11", 3, 2, 0.030, 0.010, first=7)
-    paper = board_print(board, 300)
-    found = dict(aruco.found(aruco.detector(aruco.dictionary("APRILTAG_36H11", "t")), paper))
-    assert sorted(found) == list(board.ids)
-    width, height = board.size
-    for number, corners in found.items():
-        at = board.corners(number)[:, :2] * [1, -1] + [width / 2 + 0.010, height / 2 + 0.010]
-        np.testing.assert_allclose(corners, at * 300 / 0.0254, atol=1.6)  # dots, rounded
 
 
 def test_a_lens_by_hand():
@@ -188,7 +166,7 @@ def test_errors_are_small_and_as_stated():
 def test_less_ink_turns_nothing():
     """A print whose markers are 0.4 mm too small on each side: the attitude stays."""
     eye = eye_of(unit().settings, "t")
-    fat = replace(eye.board, marker=0.0408, gap=0.0092)  # what the settings say; the print has 40
+    fat = grid("4X4_50", (6, 5), 0.0408, 0.0092)  # what the settings say; the print has 40
     turn = DOWN @ turned(15, -10, 30)
     picture = renderer_of(eye, Appearance()).picture(turn, np.array([0.02, 0.01, 0.7]))
     pose = Sight(fat, eye.lens, "t").observe(picture)
@@ -197,23 +175,24 @@ def test_less_ink_turns_nothing():
 
 
 def pose_at(turn, rms):
-    return Pose(turn, np.eye(3), rms)
+    known = BoardErrors(np.zeros(2), np.eye(2))
+    return Pose(turn, np.eye(3), np.zeros((3, 3)), rms, known)
 
 
 def test_of_two_attitudes_the_better_the_nearer_or_none():
     one, other = DOWN @ turned(10, 0, 0), DOWN @ turned(-10, 0, 0)
     near = [pose_at(one, 0.10), pose_at(other, 0.11)]
     assert chosen([pose_at(one, 0.10), pose_at(other, 0.20)], None).turn is one
-    assert chosen(near, None) is Unseen.AMBIGUOUS
+    assert chosen(near, None).code is Unseen.AMBIGUOUS
     assert chosen(near, DOWN @ turned(-9, 0, 0)).turn is other
-    assert chosen(near, DOWN @ turned(0, 40, 0)) is Unseen.AMBIGUOUS
-    assert chosen([], None) is Unseen.NO_BOARD
+    assert chosen(near, DOWN @ turned(0, 40, 0)).code is Unseen.AMBIGUOUS
+    assert chosen([], None).code is Unseen.NO_FIT
 
 
 def test_a_small_distant_board_never_yields_the_mirrored_pose():
     """Two markers, 30 px high: leans to both sides fit; what is said is right or nothing."""
     lens = Lens(1200, 1200, 319.5, 239.5, 640, 480)
-    eye = replace(check.EYE, board=TagBoard("4X4_50", 2, 1, 0.040, 0.010), lens=lens)
+    eye = replace(check.EYE, board=grid("4X4_50", (2, 1), 0.040, 0.010), lens=lens)
     renderer, rng, said = (
         renderer_of(eye, Appearance(noise=4.0, blur=1.0), 3),
         np.random.default_rng(3),
@@ -226,7 +205,7 @@ def test_a_small_distant_board_never_yields_the_mirrored_pose():
         said.append(
             np.linalg.norm(difference(from_matrix(pose.turn), from_matrix(turn))) / DEG
             if isinstance(pose, Pose)
-            else pose
+            else pose.code
         )
     angles = [angle for angle in said if not isinstance(angle, Unseen)]
     assert said.count(Unseen.AMBIGUOUS) >= 5
@@ -338,8 +317,9 @@ def test_a_part_that_never_ends_is_given_up():
         ({"rows": 10**400}, "a number, at most"),
         ({"cx_px": float("nan")}, "a number, at most"),
         ({"columns": 11.0}, "markers 0 to 49"),
-        ({"columns": 1.0, "rows": 1.0}, "at least 2 markers"),
-        ({"marker_mm": 0.0}, "lengths greater than zero"),
+        ({"columns": 0.0}, "at least one of each"),
+        ({"columns": 1e9, "rows": 1e9}, "markers 0 to 49"),
+        ({"marker_mm": 0.0}, "a length greater than zero"),
         ({"dictionary": "4X4_51"}, "4X4_50"),
         ({"fx_px": -1.0}, "numbers above 0"),
         ({"up_z": -0.5}, "length 1"),
@@ -379,7 +359,7 @@ def views():
         middle = turn @ np.array([0.12, -0.09, 0])
         place = np.array([0.06 * (k % 5 - 2) / 2, 0.05 * (k // 5 - 1.5) / 1.5, 0.36]) - middle
         pictures.append(renderer.picture(turn, place))
-    return [Corners(*points) for points in aruco.charuco_points(charuco, pictures)], lens
+    return list(aruco.chess_views(charuco, pictures)), lens
 
 
 def test_a_lens_is_found_again(views):
@@ -401,15 +381,48 @@ def test_pictures_that_do_not_determine_a_lens_are_refused(views):
     with pytest.raises(InputError, match="right and bottom"):
         lens_from(observed, (1280, 960))
     rng = np.random.default_rng(0)
+    shaken = [
+        replace(view, picture=view.picture + 3 * rng.normal(size=view.picture.shape))
+        for view in observed
+    ]
     with pytest.raises(InputError, match="px off on average"):
-        lens_from(
-            [Corners(v.board, v.picture + rng.normal(size=v.picture.shape) * 3) for v in observed],
-            (640, 480),
-        )
+        lens_from(shaken, (640, 480))
     with pytest.raises(InputError, match="clearly tilted in 0 of 12 pictures"):
         lens_from([tilted_view(k, 1.0, rng) for k in range(12)], (640, 480))
     with pytest.raises(InputError, match="with an sd of"):
         lens_from([tilted_view(k, 9.0, rng) for k in range(12)], (640, 480))
+
+
+def test_markers_without_corners_are_reported_with_what_to_try(views):
+    """The chessboard was drawn by OpenCV's present pattern: sought in the other, it has no corner.
+
+    With odd rows both patterns are one (cv::aruco::CharucoBoard).
+    """
+    observed, _ = views
+    bare = [replace(v, board=np.empty((0, 3)), picture=np.empty((0, 2))) for v in observed]
+    with pytest.raises(InputError, match="in 20 up to 24 markers found and no corner") as caught:
+        lens_from(bare, (640, 480))
+    assert "--legacy" in str(caught.value)
+    none = [replace(view, markers=0) for view in bare]
+    with pytest.raises(InputError, match="no marker in any"):
+        lens_from(none, (640, 480))
+
+
+@pytest.mark.parametrize(
+    ("rows", "legacy", "corners"), [(6, True, 35), (6, False, 0), (5, True, 28)]
+)
+def test_a_chessboard_in_the_legacy_pattern_has_to_be_declared(rows, legacy, corners):
+    """Drawn by OpenCV itself, in the pattern of releases before 4.6."""
+    markers = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+    board = cv2.aruco.CharucoBoard((8, rows), 0.030, 0.022, markers)
+    board.setLegacyPattern(True)
+    picture = cv2.GaussianBlur(board.generateImage((960, 720), marginSize=40), (0, 0), 1.0)
+    charuco = aruco.Charuco("4X4_50", 8, rows, 0.030, 0.022, legacy)
+    (view,) = aruco.chess_views(charuco, [picture])
+    assert (len(view.picture), view.markers) == (corners, 4 * rows)
+    printed = cv2.GaussianBlur(aruco.charuco_print(charuco, 100), (0, 0), 1.0)
+    (own,) = aruco.chess_views(charuco, [printed])
+    assert len(own.picture) == 7 * (rows - 1)
 
 
 def tilted_view(k, tilt, rng):
@@ -419,6 +432,5 @@ def tilted_view(k, tilt, rng):
     turn = turned(tilt * np.cos(k), tilt * np.sin(k), 0) @ turned(0, 0, 5 * k)
     exact = project(board @ turn.T + place, Lens(820, 820, 319.5, 239.5, 640, 480))
     observed = np.all((exact > 0) & (exact < [640, 480]), axis=1)
-    return Corners(
-        board[observed], exact[observed] + 0.3 * rng.normal(size=(np.count_nonzero(observed), 2))
-    )
+    found = exact[observed] + 0.3 * rng.normal(size=(np.count_nonzero(observed), 2))
+    return aruco.ChessView(board[observed], found, 24)

@@ -83,7 +83,7 @@ def test_a_missing_camera_is_reported():
     port.send(b"anything")
     port.close()
     assert found == []
-    assert "no such camera" in why
+    assert "it does not open" in why
 
 
 def test_addresses():

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.options import Whole
+from equipoise.app.arguments.options import Flag, Whole
 from equipoise.app.console.terminal import counted, show_paths
 from equipoise.model.units import MM
 
@@ -15,6 +15,7 @@ def calibrate_camera(
     square_mm: float = 30.0,
     marker_mm: float = 22.0,
     dictionary: str = "4X4_50",
+    legacy: Flag = False,
 ) -> int:
     """Measure a lens from pictures of a chessboard with markers (ChArUco).
 
@@ -37,6 +38,8 @@ def calibrate_camera(
         Side of a marker.
     dictionary
         Its markers: 4X4_50 or another dictionary of ArUco or AprilTag.
+    legacy
+        The print is in the legacy pattern, as OpenCV before 4.6 and other tools draw it.
     """
     from equipoise.app.arguments.checks import positive
     from equipoise.app.console.rich_blocks import show
@@ -49,7 +52,7 @@ def calibrate_camera(
 
     check_writable(out)
     square, marker = positive("--square-mm", square_mm), positive("--marker-mm", marker_mm)
-    board = Charuco(dictionary, columns, rows, square * MM, marker * MM)
+    board = Charuco(dictionary, columns, rows, square * MM, marker * MM, legacy)
     with counted("finding the board") as on_progress:
         found = lens_from_files(pictures, board, on_progress)
     write_camera_keys(settings_of_lens(found.lens), out)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.options import Whole
+from equipoise.app.arguments.options import Flag, Whole
 from equipoise.app.console.terminal import show_paths
 from equipoise.model.units import MM
 
@@ -16,7 +16,9 @@ def print_board(
     gap_mm: float = 10.0,
     dictionary: str = "4X4_50",
     first_id: Whole = 0,
+    spacing: float | None = None,
     square_mm: float | None = None,
+    legacy: Flag = False,
     keys: Path | None = None,
 ) -> int:
     """Draw a board of markers to print at 100 %, for the platform under a camera.
@@ -28,7 +30,7 @@ def print_board(
     out
         File to write: .pdf or .png.
     columns
-        Markers from left to right; with --square-mm squares.
+        Markers from left to right; with --square-mm squares. One column and one row: a single one.
     rows
         Markers from top to bottom; with --square-mm squares.
     marker_mm
@@ -38,9 +40,14 @@ def print_board(
     dictionary
         4X4_50 or another dictionary of ArUco or AprilTag.
     first_id
-        Id of the upper left marker.
+        Id of the upper left marker; of an AprilGrid of the lower left one.
+    spacing
+        Draw Kalibr's AprilGrid, its gap this share of a tag's side; --gap-mm and --dictionary
+        do not count.
     square_mm
         Draw instead a chessboard with markers, for `calibrate-camera`, with squares of this side.
+    legacy
+        With --square-mm: in the legacy pattern, as OpenCV before 4.6 draws it.
     keys
         TOML file to write with the board's keys, for `track` and for settings.
     """
@@ -49,8 +56,8 @@ def print_board(
     from equipoise.app.figures.base.print_sheet import DPI, check_paper, write_paper
     from equipoise.app.text.blocks import paragraphs
     from equipoise.hardware.camera.aruco import Charuco, charuco_print
-    from equipoise.hardware.camera.eye import board_of
-    from equipoise.hardware.camera.tag_board import board_print
+    from equipoise.hardware.camera.board_print import board_print
+    from equipoise.hardware.camera.board_settings import board_of
     from equipoise.io.documents.camera_file import write_camera_keys
     from equipoise.io.files.atomic_file import check_writable
 
@@ -60,22 +67,21 @@ def print_board(
     marker = positive("--marker-mm", marker_mm)
     if square_mm is not None:
         square = positive("--square-mm", square_mm)
-        charuco = Charuco(dictionary, columns, rows, square * MM, marker * MM)
+        charuco = Charuco(dictionary, columns, rows, square * MM, marker * MM, legacy)
         write_paper(charuco_print(charuco, DPI), out)
         show_paths([out])
         return 0
-    reported = {
-        "dictionary": dictionary,
-        "columns": columns,
-        "rows": rows,
-        "first_id": first_id,
-        "marker_mm": marker,
-        "gap_mm": gap_mm,
-    }
+    lattice = {"columns": columns, "rows": rows, "first_id": first_id, "marker_mm": marker}
+    reported = lattice | (
+        {"dictionary": dictionary, "gap_mm": gap_mm}
+        if spacing is None
+        else {"layout": "aprilgrid", "spacing": spacing}
+    )
     board = board_of(reported, "print-board")
     write_paper(board_print(board, DPI), out)
-    width, height = board.size
-    show(paragraphs(f"{width / MM:g} x {height / MM:g} mm over all markers"))
+    left, bottom, right, top = board.extent
+    width, height = (right - left) / MM, (top - bottom) / MM
+    show(paragraphs(f"{width:g} x {height:g} mm over all markers"))
     if keys is not None:
         write_camera_keys(reported, keys)
     show_paths([out] if keys is None else [out, keys])

@@ -89,19 +89,17 @@ def _track_blocks(found: "Track") -> "Blocks":
 
     from equipoise.app.text.blocks import items, paragraphs
 
-    counts = (
-        (found.without, "without the board"),
-        (found.ambiguous, "in which two attitudes fit alike"),
-        (found.broken, "broken or dropped"),
-    )
-    median = math.degrees(float(np.median(found.sds))) if found.sds else 0.0
-    return (
-        *paragraphs(
-            f"the board was found in {len(found.t)} of {found.pictures} pictures",
-            f"stated error of an attitude: {median:.4f} deg per axis, median" if found.sds else "",
-        ),
-        *items((f"{count} pictures {what}" for count, what in counts if count), "quiet"),
-    )
+    lost = [f"{each.count} pictures: {each.reason.sentence}" for each in found.unseen]
+    lost += [f"{found.broken} pictures broken or dropped"] if found.broken else []
+    stated = ""
+    if found.sds:
+        whole, common = (math.degrees(float(np.median(each))) for each in (found.sds, found.common))
+        stated = (
+            f"stated error of an attitude: {whole:.4f} deg per axis, median; "
+            f"{common:.4f} deg of it is the same in all pictures, as the board's print is"
+        )
+    attitudes = f"an attitude was found in {len(found.t)} of {found.pictures} pictures"
+    return (*paragraphs(attitudes, stated), *items(lost, "quiet"))
 
 
 def _up_blocks(up: "Vector3", spread: float) -> "Blocks":

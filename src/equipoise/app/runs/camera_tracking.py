@@ -15,7 +15,7 @@ from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.camera.eye import Eye, eye_of, level_up
 from equipoise.hardware.camera.pictures import pictures_of
-from equipoise.hardware.camera.pose import Pose, Unseen
+from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.sight import Sight
 from equipoise.hardware.links.frame_transform import as_sensed, placed
 from equipoise.hardware.links.sensor_link import UNSTATED, SensorLink
@@ -24,9 +24,11 @@ from equipoise.hardware.transport.driver_protocol import driver_named
 from equipoise.hardware.transport.reconnecting_port import Connection
 from equipoise.io.documents.camera_file import read_camera_keys
 from equipoise.maths.attitude import continuous, from_matrix, to_matrix
-from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port, SensorUnit, Setting
+from equipoise.model.reading import Rowless
+from equipoise.model.reasons.reason import Code
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
@@ -40,14 +42,14 @@ class Track:
     t: Sequence[float]  # s
     attitudes: Sequence[Floats]  # quaternions, body to laboratory
     sds: Sequence[float]  # rad, per axis, as stated; none where the port does not hand it on
-    without: int  # pictures in which the board was not found
-    ambiguous: int  # in which two attitudes fitted alike
+    common: Sequence[float]  # rad, the part of it that is the same in all pictures
+    unseen: Sequence[Rowless]  # pictures without an attitude, a reason each
     broken: int = 0  # that could not be read
 
     @property
     def pictures(self) -> int:
         """How many pictures there were."""
-        return len(self.t) + self.without + self.ambiguous + self.broken
+        return len(self.t) + sum(each.count for each in self.unseen) + self.broken
 
 
 def unit_of(testbed: Testbed | None, files: Sequence[Path], address: str) -> SensorUnit:
@@ -72,7 +74,7 @@ def tracked(source: Path, unit: SensorUnit, rate: float | None, reported: OnProg
     sight = Sight(eye.board, eye.lens, "camera")
     t: list[float] = []
     poses: list[Pose] = []
-    unseen: list[Unseen] = []
+    unseen: dict[Code, Rowless] = {}
     for taken in pictures_of(source, rate):
         _check_size(taken.grey.shape, eye, source)
         pose = sight.observe(taken.grey)
@@ -80,14 +82,15 @@ def tracked(source: Path, unit: SensorUnit, rate: float | None, reported: OnProg
             t.append(taken.t)
             poses.append(pose)
         else:
-            unseen.append(pose)
+            before = unseen.get(pose.code)
+            unseen[pose.code] = Rowless(pose, 1 if before is None else before.count + 1)
         reported(taken.share)
     attitudes = [
         placed(unit, "attitude", from_matrix(eye.to_laboratory @ pose.turn)) for pose in poses
     ]
-    sds = [math.sqrt(float(np.trace(pose.covariance)) / 3) for pose in poses]
-    ambiguous = unseen.count(Unseen.AMBIGUOUS)
-    return Track(t, attitudes, sds, len(unseen) - ambiguous, ambiguous)
+    sds = [_per_axis(pose.covariance) for pose in poses]
+    common = [_per_axis(pose.common) for pose in poses]
+    return Track(t, attitudes, sds, common, tuple(unseen.values()))
 
 
 def watched_camera(unit: SensorUnit, duration: float, reported: OnProgress) -> Track:
@@ -108,15 +111,16 @@ def watched_camera(unit: SensorUnit, duration: float, reported: OnProgress) -> T
         link.connection.close()
     if not t and link.connection.why:
         raise InputError(unit.port.address, link.connection.why, "a camera that can be reached")
-    counts, missing = driver.counts, link.arrivals.missing
-    return Track(t, attitudes, [], counts.foreign, 0, counts.corrupt + missing)
+    broken = driver.counts.corrupt + link.arrivals.missing
+    return Track(t, attitudes, [], [], tuple(driver.rowless.values()), broken)
 
 
 def recording_of_track(track: Track, source: str) -> Recording:
     """Return the attitudes as a recording; InputError if there are none."""
     if not track.t:
-        found = f"the board in none of {track.pictures} pictures"
-        raise InputError(source, found, "the board, lit evenly, as its settings describe it")
+        why = "; ".join(f"{each.count}: {each.reason.sentence}" for each in track.unseen)
+        found = f"an attitude in none of {track.pictures} pictures" + (f" ({why})" if why else "")
+        raise InputError(source, found, "the board in view, as its settings describe it")
     grows = np.concatenate([[True], np.diff(np.maximum.accumulate(track.t)) > 0])
     values = continuous(np.array(track.attitudes)[grows])
     return Recording(attitude=Samples(np.array(track.t)[grows], values), source=source)
@@ -130,6 +134,11 @@ def up_from(track: Track, unit: SensorUnit) -> tuple[Vector3, float]:
     up = level_up(turns)
     off = [float(np.linalg.norm(turn[:, 2] - up)) for turn in turns]
     return up, math.hypot(*off) / math.sqrt(len(off))
+
+
+def _per_axis(covariance: Matrix3) -> float:
+    """Return the sd of an axis, rad, of a turn's covariance."""
+    return math.sqrt(float(np.trace(covariance)) / 3)
 
 
 def _check_size(shape: tuple[int, ...], eye: Eye, source: Path) -> None:

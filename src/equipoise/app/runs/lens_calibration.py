@@ -3,9 +3,8 @@
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from equipoise.hardware.camera.aruco import Charuco, Picture, charuco_points
+from equipoise.hardware.camera.aruco import Charuco, Picture, chess_views
 from equipoise.hardware.camera.calibration import Calibration, lens_from
-from equipoise.hardware.camera.first_pose import Corners
 from equipoise.hardware.camera.pictures import SUFFIXES, picture_at
 from equipoise.model.errors import InputError
 from equipoise.model.units import MM
@@ -34,8 +33,7 @@ def lens_from_files(
             yield picture
             reported((k + 1) / len(paths))
 
-    views = [Corners(*points) for points in charuco_points(board, pictures())]
-    return lens_from(views, sizes[0])
+    return lens_from(list(chess_views(board, pictures())), sizes[0])
 
 
 def _paths(files: Sequence[Path]) -> list[Path]:

@@ -21,6 +21,8 @@ Picture = NDArray[np.uint8]
 PREFIX = "DICT_"
 # px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px.
 THRESHOLD = 23
+# px, sd, chosen: all tags of an AprilGrid of 50 to 160 px are then found, sharp or out of focus.
+ROUNDED = 1.5
 
 
 def opencv(where: str) -> Any:
@@ -43,20 +45,35 @@ def dictionary(name: str, where: str) -> Any:
     return aruco.getPredefinedDictionary(getattr(aruco, PREFIX + wanted))
 
 
-def detector(markers: Any) -> Any:
-    """Return what finds markers of a dictionary."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Seeker:
+    """What finds the markers of a dictionary."""
+
+    detector: Any
+    blur: float  # px, sd, of the picture before it is searched; 0: none
+
+
+def seeker_of(markers: Any, border: int = 1, touching: bool = False) -> Seeker:
+    """Return what finds markers with a black border of so many cells.
+
+    ``touching``: other black squares touch their corners. One contour would then go round all of
+    them, if a blur did not round the corners off.
+    """
     aruco = opencv("camera").aruco
     how = aruco.DetectorParameters()
     how.adaptiveThreshWinSizeMin = how.adaptiveThreshWinSizeMax = THRESHOLD
+    how.markerBorderBits = border
     how.cornerRefinementMethod = (
         aruco.CORNER_REFINE_NONE
     )  # borders determine a pose better, see ``borders``
-    return aruco.ArucoDetector(markers, how)
+    return Seeker(aruco.ArucoDetector(markers, how), ROUNDED if touching else 0.0)
 
 
-def found(seeker: Any, picture: Picture) -> list[tuple[int, Floats]]:
+def found(seeker: Seeker, picture: Picture) -> list[tuple[int, Floats]]:
     """Return id and corners (4, 2) px of each marker in a picture."""
-    corners, ids, _ = seeker.detectMarkers(picture)
+    if seeker.blur > 0:
+        picture = opencv("camera").GaussianBlur(picture, (0, 0), seeker.blur)
+    corners, ids, _ = seeker.detector.detectMarkers(picture)
     if ids is None:
         return []
     numbers = np.asarray(ids, np.int64).ravel().tolist()
@@ -64,14 +81,14 @@ def found(seeker: Any, picture: Picture) -> list[tuple[int, Floats]]:
     return list(zip(numbers, fours, strict=True))
 
 
-def drawn(markers: Any, number: int, side: int) -> Picture:
-    """Return the picture of one marker, its black border included."""
-    return opencv("camera").aruco.generateImageMarker(markers, number, side)
+def drawn(markers: Any, number: int, side: int, border: int = 1) -> Picture:
+    """Return the picture of one marker, its black border of so many cells included."""
+    return opencv("camera").aruco.generateImageMarker(markers, number, side, borderBits=border)
 
 
-def cells(markers: Any) -> int:
+def cells(markers: Any, border: int = 1) -> int:
     """Return of how many cells a marker's side consists, its black border included."""
-    return int(markers.markerSize) + 2
+    return int(markers.markerSize) + 2 * border
 
 
 def count_of(markers: Any) -> int:
@@ -121,26 +138,38 @@ class Charuco:
     rows: int  # squares
     square: float  # m, side
     marker: float  # m, side
+    legacy: bool = False  # as OpenCV drew it before 4.6: another colour begins if rows are even
 
     def board(self, where: str) -> Any:
         """Return OpenCV's own board."""
         size, markers = (self.columns, self.rows), dictionary(self.dictionary, where)
-        return opencv(where).aruco.CharucoBoard(size, self.square, self.marker, markers)
+        board = opencv(where).aruco.CharucoBoard(size, self.square, self.marker, markers)
+        board.setLegacyPattern(self.legacy)
+        return board
 
 
-def charuco_points(
-    charuco: Charuco, pictures: Iterable[Picture]
-) -> Iterator[tuple[Floats, Floats]]:
-    """Return the chessboard's corners in each picture: (n, 3) m on the board, (n, 2) px."""
+@dataclass(frozen=True, slots=True, eq=False)
+class ChessView:
+    """What one picture shows of a chessboard."""
+
+    board: Floats  # (n, 3) m, corners of its squares on the board
+    picture: Floats  # (n, 2) px, the same in the picture
+    markers: int  # of the dictionary, seen at all
+
+
+def chess_views(charuco: Charuco, pictures: Iterable[Picture]) -> Iterator[ChessView]:
+    """Return what each picture shows of a chessboard."""
     board = charuco.board("calibrate-camera")
     seeker = opencv("camera").aruco.CharucoDetector(board)
     corners = floats(board.getChessboardCorners()).reshape(-1, 3)
     for picture in pictures:
-        observed, ids, _, _ = seeker.detectBoard(picture)
+        observed, ids, _, markers = seeker.detectBoard(picture)
+        there = 0 if markers is None else len(markers)
         if ids is None or len(ids) == 0:
-            yield np.empty((0, 3)), np.empty((0, 2))
+            yield ChessView(np.empty((0, 3)), np.empty((0, 2)), there)
         else:
-            yield corners[np.asarray(ids, np.int64).ravel()], floats(observed).reshape(-1, 2)
+            numbers = np.asarray(ids, np.int64).ravel()
+            yield ChessView(corners[numbers], floats(observed).reshape(-1, 2), there)
 
 
 def charuco_print(charuco: Charuco, dpi: int) -> Picture:

@@ -30,7 +30,8 @@ class Offsets:
     """How far borders are out of place, along their normals, outward; and how that moves."""
 
     off: Floats  # (n,) px
-    slopes: Floats  # (n, 7) px per rad of turn in board axes, m of position, m of less ink
+    # px per rad of turn in board axes, m of position, m of less ink, and error of the board
+    slopes: Floats  # (n, 7 + k)
     observed: Bools  # (n,) where a border was found
 
 
@@ -52,7 +53,8 @@ def offsets(
     # R exp(theta) X moves with theta_k as (R e_k) x (R X); less ink moves a border inward.
     by_turn = np.einsum("nj,nkj->nk", by_point, np.cross(turn.T, placed[:, None, :]))
     by_ink = -np.sum(by_point * outward, axis=1, keepdims=True)
-    return Offsets(half * off, np.hstack([by_turn, by_point, by_ink]), found)
+    by_errors = np.matmul((by_point @ turn)[:, None], borders.ways)[:, 0]
+    return Offsets(half * off, np.hstack([by_turn, by_point, by_ink, by_errors]), found)
 
 
 def _lines(picture: Picture, middle: Floats, reach: Floats) -> Floats:

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.hardware.camera.aruco import calibrated, opencv
-from equipoise.hardware.camera.first_pose import Corners
+from equipoise.hardware.camera.aruco import ChessView, calibrated, opencv
 from equipoise.hardware.camera.lens import Lens
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
@@ -35,18 +34,32 @@ class Calibration:
     focal_sd: float  # px, one sd of fx and fy, the greater
 
 
-def lens_from(views: Sequence[Corners], size: tuple[int, int]) -> Calibration:
+def lens_from(views: Sequence[ChessView], size: tuple[int, int]) -> Calibration:
     """Return the lens of pictures of a size (width, height, px); InputError if they are poor."""
     useful = [view for view in views if len(view.picture) >= CORNERS]
     if len(useful) < VIEWS:
         found = f"the chessboard in {len(useful)} of {len(views)} pictures"
-        raise InputError("pictures", found, f"at least {VIEWS} with {CORNERS} corners or more")
+        wanted = f"at least {VIEWS} with {CORNERS} corners or more"
+        raise InputError("pictures", *_without_corners(views, found, wanted))
     _check_coverage(np.concatenate([view.picture for view in useful]), size)
     _check_leaning(useful)
     rms, matrix, distortion, sds = calibrated(
         [view.board for view in useful], [view.picture for view in useful], size
     )
     return _checked(Calibration(_lens(rms, matrix, distortion, size), len(useful), max(sds[:2])))
+
+
+def _without_corners(views: Sequence[ChessView], found: str, wanted: str) -> tuple[str, str]:
+    """Return found and wanted, with markers that were seen without corners, and what to try."""
+    bare = [view.markers for view in views if view.markers and not len(view.picture)]
+    if bare:
+        most = f"{max(bare)} markers" if max(bare) > 1 else "1 marker"
+        found += f"; in {len(bare)} up to {most} found and no corner between them"
+        wanted += ": try --legacy, or --columns and --rows as the print has them"
+    elif not any(view.markers for view in views):
+        found += ", and no marker in any"
+        wanted += ": try --dictionary as the print has it, or go nearer"
+    return found, wanted
 
 
 def _lens(rms: float, matrix: Floats, distortion: Floats, size: tuple[int, int]) -> Lens:
@@ -67,7 +80,7 @@ def _checked(found: Calibration) -> Calibration:
     return found
 
 
-def _check_leaning(views: Sequence[Corners]) -> None:
+def _check_leaning(views: Sequence[ChessView]) -> None:
     """Raise InputError if the board hardly leans.
 
     Pictures of a board face on fit any focal length, and the wrong one that a fit ends at has a
@@ -79,7 +92,7 @@ def _check_leaning(views: Sequence[Corners]) -> None:
         raise InputError("pictures", found, f"at least {LEANT}: {HOW}")
 
 
-def depth(view: Corners) -> float:
+def depth(view: ChessView) -> float:
     """Return by what part of its distance the far side of a board is farther than the near one.
 
     The third row of the homography, board to picture, is the depth of a point up to scale,

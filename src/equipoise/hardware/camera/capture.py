@@ -53,7 +53,7 @@ class CapturePort:
         camera = self._cv2.VideoCapture(source)
         try:
             if not camera.isOpened():
-                self._why = "no such camera, or another program holds it"
+                self._why = "it does not open: is it there, and does no other program hold it?"
                 return
             if size is not None:
                 camera.set(self._cv2.CAP_PROP_FRAME_WIDTH, size[0])

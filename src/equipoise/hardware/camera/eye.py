@@ -1,6 +1,6 @@
 """Board, lens and mounting of a camera, from its settings.
 
-dictionary, columns, rows, marker_mm, gap_mm, first_id        the board as printed
+layout and the keys of the board: see ``board_settings``
 fx_px, fy_px, cx_px, cy_px, width_px, height_px, k1, k2, p1, p2, k3    the lens
 up_x, up_y, up_z      which way is up, in the camera's axes: X to the right in the picture,
 Y down, Z along the sight; without them it points straight down
@@ -18,21 +18,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.hardware.camera.board_settings import BOARD_KEYS, board_of
 from equipoise.hardware.camera.lens import Lens
-from equipoise.hardware.camera.tag_board import TagBoard, checked_board
+from equipoise.hardware.camera.number_settings import number, whole
+from equipoise.hardware.camera.tag_board import TagBoard
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.hardware import Setting
-from equipoise.model.units import MM
 
-DICTIONARY = "4X4_50"
-BOARD = ("columns", "rows", "marker_mm", "gap_mm")
 LENS = ("fx_px", "fy_px", "cx_px", "cy_px", "width_px", "height_px")
 BENT = ("k1", "k2", "p1", "p2", "k3")
 UP = ("up_x", "up_y", "up_z")
-NEEDED = (*BOARD, *LENS)
-MOST = 1e9  # chosen: of no lens or board is any number so large
-KEYS = ("dictionary", "first_id", "rms_px", *NEEDED, *BENT, *UP)
+KEYS = ("rms_px", *BOARD_KEYS, *LENS, *BENT, *UP)
 DOWN = (0.0, 0.0, -1.0)  # up, of a camera that points straight down
 LENGTH = 0.01  # chosen: of a direction written to two digits
 STEEP = 0.9  # chosen: of the right's part along up, beyond which the picture's top is taken
@@ -53,32 +50,19 @@ def eye_of(settings: Mapping[str, Setting], where: str) -> Eye:
         if key not in KEYS:
             raise InputError(where, f"unknown key '{key}'", nearest(key, list(KEYS)))
     up = np.array(
-        [_number(settings, key, where, usual) for key, usual in zip(UP, DOWN, strict=True)]
+        [number(settings, key, where, usual) for key, usual in zip(UP, DOWN, strict=True)]
     )
     turn = camera_to_laboratory(checked_up(up, where))
     return Eye(board_of(settings, where), lens_of(settings, where), turn)
 
 
-def board_of(settings: Mapping[str, Setting], where: str) -> TagBoard:
-    """Return the board of settings."""
-    board = TagBoard(
-        str(settings.get("dictionary", DICTIONARY)),
-        _whole(settings, "columns", where),
-        _whole(settings, "rows", where),
-        MM * _number(settings, "marker_mm", where),
-        MM * _number(settings, "gap_mm", where),
-        _whole(settings, "first_id", where, 0),
-    )
-    return checked_board(board, where)
-
-
 def lens_of(settings: Mapping[str, Setting], where: str) -> Lens:
     """Return the lens of settings."""
-    fx, fy, cx, cy = (_number(settings, key, where) for key in LENS[:4])
-    width, height = (_whole(settings, key, where) for key in LENS[4:])
+    fx, fy, cx, cy = (number(settings, key, where) for key in LENS[:4])
+    width, height = (whole(settings, key, where) for key in LENS[4:])
     if min(fx, fy, width, height) <= 0:
         raise InputError(where, "a lens of no length or width", "numbers above 0")
-    bent = tuple(_number(settings, key, where, 0.0) for key in BENT)
+    bent = tuple(number(settings, key, where, 0.0) for key in BENT)
     return Lens(fx, fy, cx, cy, width, height, bent)
 
 
@@ -88,24 +72,6 @@ def settings_of_lens(lens: Lens) -> dict[str, float]:
     reported = {} if lens.rms is None else {"rms_px": lens.rms}
     pairs = zip((*LENS, *BENT), (*plain, *lens.distortion), strict=True)
     return {key: value for key, value in pairs} | reported
-
-
-def _number(
-    settings: Mapping[str, Setting], key: str, where: str, usual: float | None = None
-) -> float:
-    value = settings.get(key, usual)
-    if value is None:
-        raise InputError(where, f"no key '{key}'", f"'{key}': a number")
-    if isinstance(value, (bool, str, tuple)) or not abs(value) <= MOST:
-        raise InputError(f"{where}.{key}", f"{value!r}", f"a number, at most {MOST:g}")
-    return float(value)
-
-
-def _whole(settings: Mapping[str, Setting], key: str, where: str, usual: int | None = None) -> int:
-    value = _number(settings, key, where, usual)
-    if value != int(value):
-        raise InputError(f"{where}.{key}", f"{value:g}", "a whole number")
-    return int(value)
 
 
 def camera_to_laboratory(up: Vector3) -> Matrix3:

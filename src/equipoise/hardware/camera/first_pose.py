@@ -2,7 +2,8 @@
 
 A distant plane fits two poses (T. Collins & A. Bartoli, 2014, "Infinitesimal plane-based
 pose estimation", IJCV 109, 252-286). Both are returned, and each is refined to the least squares
-of its corners (K. Levenberg, D. Marquardt), as OpenCV has it.
+of its corners (K. Levenberg, D. Marquardt), as OpenCV has it. Tags at several heights count as in
+one plane at first; the refinement has them where they are.
 """
 
 from dataclasses import dataclass
@@ -39,8 +40,9 @@ def places_of(corners: Corners, lens: Lens) -> list[Place]:
     cv2 = opencv("camera")
     picture = corners.picture.reshape(-1, 1, 2)
     observed = (corners.board, picture, lens.matrix, lens.coefficients)
+    flat = (corners.board * [1.0, 1.0, 0.0], *observed[1:])
     try:
-        _, turns, positions, _ = cv2.solvePnPGeneric(*observed, flags=cv2.SOLVEPNP_IPPE)
+        _, turns, positions, _ = cv2.solvePnPGeneric(*flat, flags=cv2.SOLVEPNP_IPPE)
         both = [
             cv2.solvePnPRefineLM(*observed, turn, position)
             for turn, position in zip(turns, positions, strict=True)

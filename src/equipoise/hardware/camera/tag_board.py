@@ -1,8 +1,8 @@
-"""A board of square markers in rows and columns.
+"""A board: square markers at known places. Every layout makes this record (``layouts``).
 
-Its frame: origin in the middle of the board, X to the right and Y up as it is printed, Z out of
-the print towards the viewer. Markers count from the upper left, row by row; the corners of
-one go round as its picture is read: upper left, upper right, lower right, lower left.
+Its frame: X to the right and Y up as it is printed or glued, Z out of the print towards the viewer.
+The corners of a marker go round as its picture is read: upper left, upper right, lower right, lower
+left.
 """
 
 from dataclasses import dataclass
@@ -10,99 +10,104 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.hardware.camera import aruco
-from equipoise.model.arrays import Floats
-from equipoise.model.errors import InputError
-from equipoise.model.units import MM
+from equipoise.model.arrays import Floats, Matrix3, Vector3
 
 POINTS, MARGIN = 8, 0.12  # on each side of a marker, chosen: and off its corners, which blur rounds
-LEAST = 2  # markers, chosen: the pose of a single one is too often ambiguous
+LEAST = 2  # markers of a board with more than one, chosen: one alone is too often ambiguous
+AROUND = np.array([[-0.5, 0.5, 0.0], [0.5, 0.5, 0.0], [0.5, -0.5, 0.0], [-0.5, -0.5, 0.0]])
+
+
+@dataclass(frozen=True, slots=True)
+class Marker:
+    """One marker on a board."""
+
+    number: int  # its id
+    side: float  # m, with its black border
+    x: float  # m, of its middle
+    y: float  # m
+    z: float = 0.0  # m
+    rotation: float = 0.0  # rad, of its picture, from X towards Y
+
+    @property
+    def middle(self) -> Vector3:
+        """Where it is, m."""
+        return np.array([self.x, self.y, self.z])
+
+    @property
+    def axes(self) -> Matrix3:
+        """Its right, its up and its normal, by columns, board axes."""
+        c, s = np.cos(self.rotation), np.sin(self.rotation)
+        return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+    @property
+    def corners(self) -> Floats:
+        """Its corners (4, 3), m."""
+        return self.middle + self.side * AROUND @ self.axes.T
+
+
+@dataclass(frozen=True, slots=True)
+class Square:
+    """A black square that is no marker, as between the tags of an AprilGrid."""
+
+    side: float  # m
+    x: float  # m, of its middle
+    y: float  # m
 
 
 @dataclass(frozen=True, slots=True)
 class TagBoard:
-    """What is printed."""
+    """What is printed, or glued."""
 
     dictionary: str
-    columns: int
-    rows: int
-    marker: float  # m, side of a marker with its black border
-    gap: float  # m, between neighbours
-    first: int = 0  # id of the upper left marker
+    markers: tuple[Marker, ...]
+    paper: float  # m, of white around each marker, at least
+    border: int = 1  # cells, width of a marker's black border
+    squares: tuple[Square, ...] = ()
+    place_sd: float = 0.0  # m, of each marker's place as measured; 0: all printed on one sheet
 
     @property
-    def size(self) -> tuple[float, float]:
-        """Width and height over all markers, m."""
-        pitch = self.marker + self.gap
-        return self.columns * pitch - self.gap, self.rows * pitch - self.gap
-
-    @property
-    def ids(self) -> range:
+    def ids(self) -> frozenset[int]:
         """The markers' ids."""
-        return range(self.first, self.first + self.columns * self.rows)
+        return frozenset(marker.number for marker in self.markers)
 
     @property
-    def ink(self) -> float:
-        """How wide the black border of a marker is, or the paper around it if that is less, m."""
-        cells = aruco.cells(aruco.dictionary(self.dictionary, "board"))
-        return min(self.marker / cells, self.gap)
+    def wanted(self) -> int:
+        """How many markers a picture has to show."""
+        return min(LEAST, len(self.markers))
 
-    def corners(self, number: int) -> Floats:
-        """Return the corners (4, 3) of a marker, m, board axes."""
-        row, column = divmod(number - self.first, self.columns)
-        pitch, (width, height) = self.marker + self.gap, self.size
-        left, top = column * pitch - width / 2, height / 2 - row * pitch
-        right, bottom = left + self.marker, top - self.marker
-        return np.array(
-            [[left, top, 0.0], [right, top, 0.0], [right, bottom, 0.0], [left, bottom, 0.0]]
-        )
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right and top of all markers, m."""
+        corners = np.concatenate([marker.corners for marker in self.markers])
+        (left, bottom), (right, top) = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
+        return float(left), float(bottom), float(right), float(top)
 
-    def borders(self, number: int) -> "Borders":
-        """Return points on the border of a marker."""
-        corners = self.corners(number)[:, None]
-        way = np.roll(corners, -1, axis=0) - corners
-        along = (way / self.marker).repeat(POINTS, axis=1).reshape(-1, 3)
-        shares = (np.arange(POINTS) + 0.5) / POINTS
-        points = corners + (MARGIN + (1 - 2 * MARGIN) * shares[:, None]) * way
-        outward = along[:, [1, 0, 2]] * [-1.0, 1.0, 0.0]
-        return Borders(points.reshape(-1, 3), along, outward, self.ink)
+    def marker(self, number: int) -> Marker:
+        """Return the marker with an id."""
+        return next(marker for marker in self.markers if marker.number == number)
+
+    def ink(self, marker: Marker) -> float:
+        """Return how wide a marker's black border is, or the paper around it if that is less, m."""
+        cells = aruco.cells(aruco.dictionary(self.dictionary, "board"), self.border)
+        return min(self.border * marker.side / cells, self.paper)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Borders:
     """Points on the borders of markers, board axes: paper is outside, ink inside."""
 
-    points: Floats  # (n, 3) m
-    along: Floats  # (n, 3) unit, along the border
-    outward: Floats  # (n, 3) unit, from ink to paper
-    ink: float  # m, how wide the ink is within a border, or the paper around it if that is less
+    points: Floats  # (..., 3) m
+    along: Floats  # (..., 3) unit, along the border
+    outward: Floats  # (..., 3) unit, from ink to paper
+    ink: Floats  # (...) m, how wide the ink is within a border, or the paper if that is less
+    ways: Floats  # (..., 3, k) how points move with each error of the board, see ``board_errors``
 
 
-def checked_board(board: TagBoard, where: str) -> TagBoard:
-    """Return a board; InputError if its dictionary has too few markers, or it is none."""
-    count = board.columns * board.rows
-    if board.columns < 1 or board.rows < 1 or count < LEAST:
-        wanted = f"at least {LEAST} markers"
-        raise InputError(where, f"{board.columns} columns and {board.rows} rows", wanted)
-    if board.marker <= 0 or board.gap <= 0:
-        found = f"marker_mm {board.marker / MM:g} and gap_mm {board.gap / MM:g}"
-        raise InputError(where, found, "lengths greater than zero")
-    there = aruco.count_of(aruco.dictionary(board.dictionary, where))
-    if board.first < 0 or board.ids.stop > there:
-        found = f"markers {board.first} to {board.ids.stop - 1} of {board.dictionary}"
-        raise InputError(where, found, f"markers 0 to {there - 1}")
-    return board
-
-
-def board_print(board: TagBoard, dpi: int) -> aruco.Picture:
-    """Return the board at its true size, a gap of paper around it."""
-    pitch = board.marker + board.gap
-    width, height = (
-        aruco.dots(count * pitch + board.gap, dpi) for count in (board.columns, board.rows)
-    )
-    side, paper = aruco.dots(board.marker, dpi), np.full((height, width), 255, np.uint8)
-    markers = aruco.dictionary(board.dictionary, "print-board")
-    for number in board.ids:
-        row, column = divmod(number - board.first, board.columns)
-        left, top = (aruco.dots(board.gap + pitch * k, dpi) for k in (column, row))
-        paper[top : top + side, left : left + side] = aruco.drawn(markers, number, side)
-    return paper
+def borders_of(marker: Marker) -> tuple[Floats, Floats, Floats]:
+    """Return points on a marker's border, directions along it, and outward, each (n, 3)."""
+    corners = marker.corners[:, None]
+    way = np.roll(corners, -1, axis=0) - corners
+    along = (way / marker.side).repeat(POINTS, axis=1).reshape(-1, 3)
+    shares = (np.arange(POINTS) + 0.5) / POINTS
+    points = corners + (MARGIN + (1 - 2 * MARGIN) * shares[:, None]) * way
+    return points.reshape(-1, 3), along, along[:, [1, 0, 2]] * [-1.0, 1.0, 0.0]

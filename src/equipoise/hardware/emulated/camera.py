@@ -9,7 +9,8 @@ import numpy as np
 
 from equipoise.hardware.camera.aruco import Picture, encoded
 from equipoise.hardware.camera.eye import Eye, eye_of
-from equipoise.hardware.emulated.rendering import Appearance, Renderer, sheet_of
+from equipoise.hardware.emulated.print_texture import sheet_of
+from equipoise.hardware.emulated.rendering import Appearance, Renderer
 from equipoise.hardware.links.frame_transform import as_sensed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.hardware import SensorUnit

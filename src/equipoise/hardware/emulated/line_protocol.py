@@ -29,7 +29,8 @@ class EmulatedLineProtocol:
     def __init__(self, unit: SensorUnit) -> None:
         self._unit, self._n = unit, 0
         columns = unit.settings.get("columns", ())
-        self._columns = columns if isinstance(columns, tuple) else ()
+        named = columns if isinstance(columns, tuple) else ()
+        self._columns = [column for column in named if isinstance(column, str)]
 
     def take(self, data: bytes, t: float) -> bytes:
         """Return nothing: a sketch does not answer."""

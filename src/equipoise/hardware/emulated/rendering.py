@@ -1,8 +1,7 @@
 """Pictures of a board of markers, as a camera would take them.
 
-Projection and distortion do not use the estimator's code, so that no error is
-shared. The board's print is an exact average over each pixel of a texture; a pixel of the picture
-is interpolated there:
+Projection and distortion do not use the estimator's code, so that no error is shared. The board's
+print is a texture (``print_texture``); a pixel of the picture is interpolated there:
 
     pixel -> direction (distortion undone by iteration) -> plane of the board -> texture
 
@@ -15,13 +14,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.hardware.camera import aruco
 from equipoise.hardware.camera.aruco import Picture, opencv
 from equipoise.hardware.camera.lens import Lens
-from equipoise.hardware.camera.tag_board import TagBoard
+from equipoise.hardware.emulated.print_texture import Sheet
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 
-BLACK, WHITE, GROUND, BEFORE = 35.0, 215.0, 120.0, 80.0  # grey levels, chosen: a dim laboratory
+GROUND, BEFORE = 120.0, 80.0  # grey levels, chosen: a dim laboratory
 UNDONE = 12  # chosen: steps that undo a distortion; each leaves less than a third of what is left
 POOL = 1 << 21  # chosen: numbers of noise drawn once; each picture takes them from another place
 
@@ -35,15 +33,6 @@ class Appearance:
     noise: float = 2.0  # grey levels, sd
     covered: float = 0.0  # of the board's width: a disc before it, as a hand or a cable
     finer: int = 1  # samples per pixel and axis
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Sheet:
-    """A print: the texture of a plane, on the board's axes."""
-
-    grey: NDArray[np.float32]
-    scale: float  # pixels per m
-    corner: Floats  # X, Y of the upper left corner, m
 
 
 class Renderer:
@@ -179,32 +168,3 @@ def directions(lens: Lens, finer: int) -> tuple[NDArray[np.float32], NDArray[np.
         bent = bend(x, y, lens)
         x, y = x + observed[0] - bent[0], y + observed[1] - bent[1]
     return x.astype(np.float32), y.astype(np.float32)
-
-
-def sheet_of(board: TagBoard, scale: float) -> Sheet:
-    """Return the print of a board in grey levels, ``scale`` pixels per m.
-
-    Each pixel is the exact average of the print over it. A gap of paper is left all around.
-    """
-    pitch = board.marker + board.gap
-    width, height = board.columns * pitch + board.gap, board.rows * pitch + board.gap
-    across, down = int(np.ceil(width * scale)), int(np.ceil(height * scale))
-    paper = np.full((down, across), WHITE, np.float32)
-    markers = aruco.dictionary(board.dictionary, "camera")
-    cells = aruco.cells(markers)
-    for k in range(board.columns * board.rows):
-        bits = aruco.drawn(markers, board.first + k, cells) < 128
-        row, column = divmod(k, board.columns)
-        by_column = shares(board.gap + column * pitch, board.marker / cells, cells, across, scale)
-        by_row = shares(board.gap + row * pitch, board.marker / cells, cells, down, scale)
-        paper -= (WHITE - BLACK) * (by_row.T @ bits @ by_column).astype(np.float32)
-    return Sheet(paper, scale, np.array([-width / 2, height / 2]))
-
-
-def shares(start: float, cell: float, cells: int, pixels: int, scale: float) -> Floats:
-    """Return by how much each cell (rows) covers each pixel (columns); lengths in m."""
-    edges = scale * (start + cell * np.arange(cells + 1))
-    pixel = np.arange(pixels)
-    low = np.maximum(edges[:-1, None], pixel[None, :])
-    high = np.minimum(edges[1:, None], pixel[None, :] + 1)
-    return np.maximum(high - low, 0.0)

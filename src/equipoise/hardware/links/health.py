@@ -1,6 +1,6 @@
 """How well a bench's devices answer: what arrived, its defects, offset and drift of clocks."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -8,7 +8,7 @@ from equipoise.hardware.links.arrival_statistics import Arrivals
 from equipoise.hardware.links.clock_sync import DeviceClock, drift_of, offset_of
 from equipoise.hardware.transport.requests import Unconfirmed
 from equipoise.model.hardware import Gives
-from equipoise.model.reading import Counts
+from equipoise.model.reading import Counts, Rowless
 from equipoise.model.units import MS, PPM
 
 
@@ -33,6 +33,7 @@ class Health:
     clocks: Mapping[Gives, DeviceClock] = field(default_factory=dict[Gives, DeviceClock])
     unconfirmed: tuple[Unconfirmed, ...] = ()  # requests that are overdue
     received: bytes = b""  # last
+    rowless: Sequence[Rowless] = ()  # messages without a row, a reason each
 
     @property
     def wrong(self) -> dict[Defect, int]:
@@ -52,7 +53,7 @@ class Health:
         """All of it, for people."""
         good = f"{self.counts.good} messages"
         if self.counts.foreign:
-            good += f", {self.counts.foreign} of other kinds"
+            good += f", {self.counts.foreign} of other kinds{self._rowless}"
         if self.arrivals is not None:
             good += f", {self.arrivals.kept} rows"
         wrong = ", ".join(f"{count} {what}" for what, count in self.wrong.items())
@@ -73,7 +74,24 @@ class Health:
         }
         kept = {} if self.arrivals is None else {"rows": self.arrivals.kept}
         messages = {"messages": self.counts.good, "others": self.counts.foreign}
-        return {"device": self.device, **messages, **kept, **self.wrong, "clocks": clocks}
+        without = [
+            {"code": each.reason.code.value, "count": each.count, **each.reason.numbers}
+            for each in self.rowless
+        ]
+        rowless = {"without_row": without} if without else {}
+        return {
+            "device": self.device,
+            **messages,
+            **kept,
+            **self.wrong,
+            **rowless,
+            "clocks": clocks,
+        }
+
+    @property
+    def _rowless(self) -> str:
+        text = "; ".join(f"{each.count}: {each.reason.sentence}" for each in self.rowless)
+        return f" ({text})" if text else ""
 
     def _clock(self, channel: Gives) -> str:
         clock = self.clocks[channel]

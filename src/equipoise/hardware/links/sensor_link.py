@@ -55,6 +55,7 @@ class SensorLink:
             dict(self.clocks),
             self.driver.requests.overdue,
             self._received,
+            tuple(self.driver.rowless.values()),
         )
 
     @property

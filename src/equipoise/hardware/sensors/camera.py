@@ -14,7 +14,7 @@ from equipoise.hardware.camera.aruco import Picture, decoded
 from equipoise.hardware.camera.eye import eye_of
 from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.raw_picture import unpacked
-from equipoise.hardware.camera.sight import Sight
+from equipoise.hardware.camera.sight import Sight, other_size
 from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.finite_numbers import finite
 from equipoise.hardware.transport.mjpeg_stream import Part, Parts
@@ -74,10 +74,10 @@ class Camera(SensorDriver):
         return self._observed(picture, finite(part.head.get(STAMP, "")), None)
 
     def _observed(self, picture: Picture, stamp: float | None, number: int | None) -> list[Reading]:
-        size = (self._eye.lens.height, self._eye.lens.width)
-        pose = self._sight.observe(picture) if picture.shape == size else None
+        other = other_size(picture, self._eye.lens)
+        pose = self._sight.observe(picture) if other is None else other
         if not isinstance(pose, Pose):
-            return self.counted(None)
+            return self.without_row(pose)
         attitude = from_matrix(self._eye.to_laboratory @ pose.turn)
         return self.counted([Reading("attitude", tuple(map(float, attitude)), stamp, number)])
 

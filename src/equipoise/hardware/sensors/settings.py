@@ -38,9 +38,11 @@ class Settings:
     def names(self, key: str) -> tuple[str, ...]:
         """Return a list of texts; empty if it is not given."""
         value = self._values.get(key, ())
-        if not isinstance(value, tuple):
+        texts = value if isinstance(value, tuple) else ()
+        found = tuple(each for each in texts if isinstance(each, str))
+        if not isinstance(value, tuple) or len(found) < len(texts):
             raise self.wrong(f"{key} {value}", 'a list such as ["a", "b"]')
-        return value
+        return found
 
 
 def check_gives(unit: SensorUnit, can: Iterable[str], how: str) -> None:

@@ -4,7 +4,8 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 
 from equipoise.hardware.transport.requests import AGAIN, Requests
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Counts, Reading, Rowless
+from equipoise.model.reasons.reason import Code, Reason
 
 
 class Tally:
@@ -34,10 +35,11 @@ class SensorDriver(Tally):
         super().__init__()
         self._spoken = dict(spoken or {})
         self.requests = Requests(self._spoken, again, one_by_one)
+        self.rowless: dict[Code, Rowless] = {}  # messages without a row, since the port was opened
 
     def opened(self) -> None:
         """Begin anew: the port has just been opened, half a message of before is void."""
-        self.counts = Counts()
+        self.counts, self.rowless = Counts(), {}
         self.requests.begin()
 
     @abstractmethod
@@ -58,3 +60,9 @@ class SensorDriver(Tally):
         """Count a message by its rows and return them; no row: it is broken, None: of no use."""
         self.count(good=bool(readings), corrupt=readings == [], foreign=readings is None)
         return readings or []
+
+    def without_row(self, reason: Reason) -> list[Reading]:
+        """Count a message that is whole and gives no row, with its reason; return no row."""
+        before = self.rowless.get(reason.code)
+        self.rowless[reason.code] = Rowless(reason, 1 if before is None else before.count + 1)
+        return self.counted(None)

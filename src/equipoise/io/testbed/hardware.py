@@ -1,7 +1,7 @@
 """What is connected, motor boards, sensors and limits: their tables, and their records in SI."""
 
 from collections.abc import Sequence
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
 import numpy as np
 from pydantic import Field
@@ -74,8 +74,8 @@ class SensorUnit(RecordTable):
     laboratory: Literal["z_up", "ned", "y_up"] = Field(
         "z_up", description="the frame that its attitude refers to"
     )
-    settings: dict[str, str | float | bool | list[str]] = Field(
-        {}, description="the driver's own, such as the columns of a line"
+    settings: dict[str, str | float | bool | list[str] | list[dict[str, float]]] = Field(
+        {}, description="the driver's own, such as the columns of a line, the tags of a board"
     )
 
     def record(self, where: str) -> model.SensorUnit:
@@ -138,8 +138,8 @@ def _check_once(words: list[str], where: str, shown: str, wanted: str) -> None:
             raise InputError(where, f"two devices {shown.format(word)}", wanted)
 
 
-def _setting(value: str | float | bool | list[str]) -> model.Setting:
-    return tuple(value) if isinstance(value, list) else value
+def _setting(value: str | float | bool | list[str] | list[dict[str, float]]) -> model.Setting:
+    return cast("model.Setting", tuple(value)) if isinstance(value, list) else value
 
 
 def _rotation(rows: list[list[float]], where: str) -> Matrix3:
