@@ -20,6 +20,7 @@ from dataclasses import replace
 from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.boards.grbl.codes import IDLE_ERROR, alarm_text, error_text
 from equipoise.hardware.boards.grbl.halt import Halting, Wish
+from equipoise.hardware.boards.grbl.lateness import too_late
 from equipoise.hardware.boards.grbl.lines import (
     displacements,
     machine_position,
@@ -43,7 +44,6 @@ from equipoise.hardware.boards.grbl.settings import (
 )
 from equipoise.hardware.boards.grbl.states import LOST, POLLS, QUIET, TAKES_LEGS, WAYS_OUT
 from equipoise.hardware.boards.grbl.talk import CANCEL, HOLD, RESUME, GrblTalk, Step
-from equipoise.hardware.boards.grbl.watch import too_late
 from equipoise.hardware.transport.driver_protocol import (
     POLL,
     BoardDriver,
