@@ -19,6 +19,7 @@ from equipoise.model.errors import InputError
 from verification import (
     any_bytes,
     balanced,
+    board_in_real_time,
     board_soak,
     calibration,
     camera,
@@ -99,6 +100,7 @@ CHECKS = {
     "emulated_sputnix": Check(emulated_balancing.of("sputnix", "Grbl and a drawn camera"), 80),
     "faulty_benches": Check(faulty_benches.measure, 306),
     "board_soak": Check(board_soak.measure, 50),
+    "board_in_real_time": Check(board_in_real_time.measure, 10),
     "killed_recordings": Check(killed_recordings.measure, 200),
     "interrupted_commands": Check(interrupted_commands.measure, 300),
     "any_bytes": Check(any_bytes.measure, 1000),

@@ -57,7 +57,7 @@ def checked_bench(
             bench.watch()
             recording = bench.read(streamed)
             yield from _streams(keeper, recording, streamed)
-            yield from _frames(keeper, recording)
+            yield from frame_results(keeper, recording)
         else:
             yield CheckResult(True, "no sensor is declared: nothing to stream")
         if keeper.links.ready:
@@ -99,7 +99,7 @@ def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[
         yield CheckResult(not health.wrong, health.sentence + hint)
 
 
-def _frames(keeper: Keeper, recording: Recording) -> Iterator[CheckResult]:
+def frame_results(keeper: Keeper, recording: Recording) -> Iterator[CheckResult]:
     """Report whether the platform is upright, and what else its rows show to be wrong.
 
     Rows without stamps of their device are stamped as they arrive: how evenly they do is said, and

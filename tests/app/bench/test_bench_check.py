@@ -1,0 +1,82 @@
+"""`equipoise check`, step by step, at emulated devices behind real ports.
+
+Boards without switches are at home at once; that is what makes these tests quick.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from equipoise.app.bench.bench_check import checked_bench, frame_results
+from equipoise.app.bench.emulation import hardware_of
+from equipoise.app.bench.explained_conversation import Conversations
+from equipoise.app.bench.open_bench import keeper_of
+from equipoise.io.testbed.presets import read_preset
+from equipoise.model.recording import Recording, Samples
+
+pytest.importorskip("pty", reason="no pseudo terminals")
+from tests.support.live_bench import living
+
+NANOSAT = read_preset("nanosat")
+(BOARD,) = NANOSAT.hardware.boards
+WITHOUT_SENSOR = replace(
+    NANOSAT,
+    hardware=replace(NANOSAT.hardware, boards=(replace(BOARD, homing=False),), sensors=()),
+)
+
+
+def test_a_bench_without_a_sensor_is_checked_and_not_waited_for():
+    with living(WITHOUT_SENSOR) as there:
+        found = list(checked_bench(there.testbed(), 2.0, lambda _question: True))
+    assert [each.sentence for each in found if not each.good] == []
+    said = [each.sentence for each in found]
+    assert "no sensor is declared: nothing to stream" in said
+    assert sum("went 1 mm out and back" in each for each in said) == 3
+
+
+def test_an_acceleration_as_delivered_is_a_problem_with_what_to_set():
+    with living(WITHOUT_SENSOR) as there:
+        there.boards[0].device.board.settings[121] = 10.0
+        found = list(checked_bench(there.testbed(), 2.0, lambda question: "home" in question))
+    (problem,) = [each.sentence for each in found if not each.good]
+    assert problem.startswith("board masses: mass y takes 0.80 s to stop with 10 mm/s^2 ($121)")
+    assert "set 80 mm/s^2 or more" in problem
+
+
+def test_a_conversation_is_printed_as_it_happens_in_both_directions():
+    lines = []
+    with living(WITHOUT_SENSOR) as there:
+        bed = there.testbed()
+        opener = Conversations(hardware_of(bed), lines.append).opener
+        list(checked_bench(bed, 2.0, lambda question: "home" in question, opener))
+    said = "\n".join(lines)
+    wanted = (
+        "-- masses: the port is open",
+        "-> masses: begin anew (0x18)",
+        "<- masses: I have begun: Grbl 1.1h",
+        "-> masses: list your settings ($$)",
+        "<- masses: ok: the line is taken",
+        "-> masses: unlock ($X)",
+        "<- masses: I am in state Idle at",
+    )
+    places = [said.find(each) for each in wanted]
+    assert min(places) >= 0
+    assert places == sorted(places)
+    assert "not understood" not in said.replace("'\\xf8\\x00ets boot'", "").replace(
+        "something that is not understood: ", "", 1
+    )
+
+
+def test_rows_that_arrive_unevenly_are_no_fault_of_a_sensor_without_stamps():
+    """40 Hz with 5 ms of scatter, as on a computer that is busy."""
+    t = 0.025 * np.arange(80) + np.random.default_rng(1).normal(0, 0.005, 80)
+    attitude = Samples(np.sort(t), np.tile([1.0, 0.0, 0.0, 0.0], (80, 1)))
+    keeper = keeper_of(NANOSAT)
+    scattered = [
+        each
+        for each in frame_results(keeper, Recording(attitude))
+        if "intervals scatter" in each.sentence
+    ]
+    assert [each.good for each in scattered] == [True]
+    assert "stamped as they arrive" in scattered[0].sentence
