@@ -30,6 +30,7 @@ class Dialect:
     locked: bool = True  # until it has homed
     reports_homing: bool = False
     chatter: str = ""  # before the greeting
+    lock: str = "[MSG:'$H'|'$X' to unlock]"  # after it, until it has homed
 
     def __post_init__(self):
         self.at, self.state, self.sent = (0.0, 0.0, 0.0), "Idle", b""
@@ -45,7 +46,8 @@ class Dialect:
     def _answer(self, byte):
         if byte == b"\x18":
             self.state = "Alarm" if self.locked else "Idle"
-            return f"{self.chatter}\r\n{self.greeting}\r\n"
+            lock = f"{self.lock}\r\n" if self.locked else ""
+            return f"{self.chatter}\r\n{self.greeting}\r\n{lock}"
         if byte == b"?":
             return self.report.format(self.state, ",".join(f"{v:.3f}" for v in self.at)) + "\r\n"
         if byte == b"$$\n":
@@ -73,11 +75,14 @@ DIALECTS = {
     "grblHAL": Dialect(
         "GrblHAL 1.1f ['$' or '$HELP' for help]",
         "<{}|MPos:{}|Bf:100,1023|FS:0,0|Pn:PXYZ|WCO:0.000,0.000,0.000>",
+        settings=GRBL + SETTINGS + "$70=7\r\n$74=lab wifi\r\n$302=192.168.5.1\r\n",
         reports_homing=True,
+        lock="ALARM:11\r\n[MSG:'$H'|'$X' to unlock]",
     ),
     "FluidNC": Dialect(
         "Grbl 3.7 [FluidNC v3.7.8 (wifi) '$' for help]",
         "<{}|MPos:{}|FS:0,0>",
+        settings=SETTINGS,
         chatter="ets Jul 29 2019\r\n\r\nrst:0x1 (POWERON_RESET)\r\n[MSG:INFO: FluidNC v3.7.8]",
     ),
     "a board whose greeting is lost": Dialect("", "<{}|MPos:{}|FS:0,0>"),

@@ -175,11 +175,9 @@ class Grbl(BoardDriver):
 
     def _trouble(self, code: Code, t: float) -> None:
         if code.alarm:
-            over = self._talk.awaiting and self.state.phase in (Phase.CONNECTING, Phase.HOMING)
-            if not over:  # a reset breaks off what was under way, and is meant to
-                self._fault(
-                    BoardFault.ALARM, alarm_text(code.number), lost=True, number=code.number
-                )
+            if self._alarming:
+                text = alarm_text(code.number)
+                self._fault(BoardFault.ALARM, text, lost=True, number=code.number)
             return
         refused = self._answered(t)
         if refused is Step.LEG and code.number == IDLE_ERROR:
@@ -189,6 +187,13 @@ class Grbl(BoardDriver):
             self._fault(
                 BoardFault.REFUSED, error_text(code.number), text, lost=refused is not Step.LEG
             )
+
+    @property
+    def _alarming(self) -> bool:
+        """Say whether an alarm is news: not that of a reset, nor of a board that must home."""
+        pending = self._talk.queue.pending
+        homes = pending is not None and pending.purpose is Step.HOME
+        return self.state.sure or bool(self.state.goal) or homes
 
     def _taken(self, t: float) -> None:
         """Note that the line under way was taken."""

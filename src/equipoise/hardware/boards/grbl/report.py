@@ -21,7 +21,7 @@ from equipoise.hardware.transport.finite_numbers import all_finite, finite
 
 GREETING = re.compile(rb"(?:Grbl|GrblHAL) (\d+)\.(\d+)(\S*) \[.*")
 OLD_STATUS = re.compile(rb"<[A-Za-z]+,MPos:.*>")  # of Grbl 0.8 and 0.9
-SETTING = re.compile(rb"\$(\d+)=([-+0-9.eE]+)")
+SETTING = re.compile(rb"\$(\d+)=(.*)")
 CODE = re.compile(rb"(error|ALARM):(\d{1,4})")
 OLDEST = (1, 1)  # version that has jogs
 
@@ -68,7 +68,7 @@ class Word(Enum):
     """What is said without a number."""
 
     OK = "a line was taken"
-    REMARK = "a message for people, or an echo"
+    REMARK = "a message for people, an echo, or a setting that is a text"
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,10 +103,10 @@ def parsed(line: bytes) -> Report | None:
     code = CODE.fullmatch(line)
     if code:
         return Code(code[1] == b"ALARM", int(code[2]))
-    setting = SETTING.fullmatch(line.partition(b" ")[0])
+    setting = SETTING.fullmatch(line)
     if setting:
-        value = finite(setting[2])
-        return None if value is None else Setting(int(setting[1]), value)
+        value = finite(setting[2].partition(b" ")[0])
+        return Word.REMARK if value is None else Setting(int(setting[1]), value)
     return Word.REMARK if line.startswith(b"[") and line.endswith(b"]") else None
 
 

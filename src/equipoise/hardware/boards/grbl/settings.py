@@ -28,12 +28,15 @@ UNLISTED = 120.0  # s, chosen: for homing, where a board does not list how quick
 def disagreement(
     board: MotorBoard, masses: Sequence[SlidingMass], settings: Mapping[int, float]
 ) -> str:
-    """Return the first thing in which board and testbed file differ; empty if there is none."""
+    """Return the first thing in which board and testbed file differ; empty if there is none.
+
+    What a board does not list (FluidNC keeps homing elsewhere) is not compared.
+    """
     if settings.get(13, 0) != 0:
         return "it reports inches ($13=1); wanted millimetres ($13=0)"
-    if board.homing and settings.get(22, 0) == 0:
+    if board.homing and settings.get(22) == 0:
         return "homing is off ($22=0) and the testbed file says homing = true"
-    if board.homing and settings.get(20, 0) == 0:
+    if board.homing and settings.get(20) == 0:
         return "soft limits are off ($20=0); wanted on ($20=1), since it can home"
     by_name = {mass.name: mass for mass in masses}
     found = (_of_axis(axis, by_name[axis.mass], board, settings) for axis in board.axes)
