@@ -182,7 +182,7 @@ def spoil(station, how):
         (lambda lab: spoil(lab.board, half), "board masses: "),
         (lambda lab: lab.board.device.press_reset, "position is lost"),
         (lambda lab: lab.board.device.hit_limit, "a limit switch was hit"),
-        (lambda lab: lambda: lab.board.device.switch(False), "its state (?) was asked"),
+        (lambda lab: lambda: lab.board.device.switch(False), "its state (?) was requested"),
         (lambda lab: lab.board.wire.unplug, "its port is gone"),
     ],
 )
@@ -303,7 +303,7 @@ def test_who_homes_holds_the_platform_as_at_first():
         while not found.keeper.links.ready:
             found.wait(0.5)
         found.bench.watch()
-        assert found.bench.read(1.0).masses.values[-1] == pytest.approx(np.zeros(3), abs=2e-6)
+        assert found.bench.read(2.0).masses.values[-1] == pytest.approx(np.zeros(3), abs=2e-6)
 
 
 def test_a_hand_leads_the_platform_back_at_its_own_rate():

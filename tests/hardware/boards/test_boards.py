@@ -244,7 +244,7 @@ def test_a_silent_board_is_reported_as_a_fault(kind):
     for k in range(500):
         driver.due(k * TURN)
     assert driver.state.phase == "fault"
-    assert "nothing was heard from it" in driver.state.sentence
+    assert "nothing was received from it" in driver.state.sentence
 
 
 @every_board

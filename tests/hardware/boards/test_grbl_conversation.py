@@ -245,7 +245,7 @@ def test_a_fault_has_the_query_and_the_last_line_and_no_cause_that_nobody_observ
     wire.cut = True
     state = wire.run(3.0, until=Phase.FAULT)
     assert state.fault.code is BoardFault.SILENT
-    assert "its state (?) was asked 1.5 s ago" in state.sentence
+    assert "its state (?) was requested 1.5 s ago" in state.sentence
     assert "'<Idle|MPos:-17.000,-17.000,-17.000" in state.sentence
     assert "unplugged" not in state.sentence
 

@@ -1,6 +1,6 @@
 """Why a motor board may not move masses: what was observed, and what to do next.
 
-Every sentence says what was asked, how long ago, and what was heard last. None names a cause that
+Every sentence says what was requested, how long ago, and what was received last. None names a cause that
 nobody saw: a board that is silent may be unplugged, switched off, busy or hung.
 """
 
@@ -16,7 +16,7 @@ class BoardFault(Code):
     )
     NOTHING_RECEIVED = (
         "nothing_received",
-        "nothing was heard from it in the {waited:.1f} s since its port was opened; check its "
+        "nothing was received from it in the {waited:.1f} s since its port was opened; check its "
         "power, its port and its baud rate",
     )
     NOT_ITS_KIND = (
@@ -26,7 +26,7 @@ class BoardFault(Code):
     OUTDATED = "outdated", "it says {0}; wanted Grbl 1.1 or later"
     SILENT = (
         "board_silent",
-        "it does not answer: {0} was asked {waited:.1f} s ago, and the last that was heard is {1}, "
+        "it does not answer: {0} was requested {waited:.1f} s ago, and the last that was received is {1}, "
         "{ago:.1f} s ago; its position is lost; check power and cable, then home again",
     )
     UNANSWERED = (
@@ -41,7 +41,7 @@ class BoardFault(Code):
     )
     NOT_BEGUN = (
         "not_begun",
-        "it has not begun anew {waited:.1f} s after a reset; the last that was heard is {0}, "
+        "it has not begun anew {waited:.1f} s after a reset; the last that was received is {0}, "
         "{ago:.1f} s ago; switch it off and on, then home again",
     )
     ALARM = "board_alarm", "{0} (ALARM:{number}); home again"
@@ -65,7 +65,7 @@ class BoardFault(Code):
     HOMING_LONG = (
         "homing_long",
         "homing has not ended after {waited:.0f} s, which is longer than its settings explain; "
-        "the last that was heard is {0}, {ago:.1f} s ago; check the switches, then home again",
+        "the last that was received is {0}, {ago:.1f} s ago; check the switches, then home again",
     )
     SWITCH_HIT = (
         "switch_hit",
