@@ -26,13 +26,13 @@ class BoardFault(Code):
     OUTDATED = "outdated", "it says {0}; wanted Grbl 1.1 or later"
     SILENT = (
         "board_silent",
-        "it does not answer: {0} was requested {waited:.1f} s ago, and the last that was received is {1}, "
-        "{ago:.1f} s ago; its position is lost; check power and cable, then home again",
+        "it does not answer: {0} was requested {waited:.1f} s ago, and the last line received is "
+        "{1}, {ago:.1f} s ago; its position is lost; check power and cable, then home again",
     )
     UNANSWERED = (
         "unanswered",
-        "it does not answer {0} of {waited:.1f} s ago, though it speaks: the last that was heard "
-        "is {1}, {ago:.1f} s ago; home again",
+        "it does not answer {0} of {waited:.1f} s ago, though it reports its state: the last line "
+        "received is {1}, {ago:.1f} s ago; home again",
     )
     BEGAN_ANEW = (
         "began_anew",
@@ -41,7 +41,7 @@ class BoardFault(Code):
     )
     NOT_BEGUN = (
         "not_begun",
-        "it has not begun anew {waited:.1f} s after a reset; the last that was received is {0}, "
+        "it has not begun anew {waited:.1f} s after a reset; the last line received is {0}, "
         "{ago:.1f} s ago; switch it off and on, then home again",
     )
     ALARM = "board_alarm", "{0} (ALARM:{number}); home again"
@@ -65,7 +65,7 @@ class BoardFault(Code):
     HOMING_LONG = (
         "homing_long",
         "homing has not ended after {waited:.0f} s, which is longer than its settings explain; "
-        "the last that was received is {0}, {ago:.1f} s ago; check the switches, then home again",
+        "the last line received is {0}, {ago:.1f} s ago; check the switches, then home again",
     )
     SWITCH_HIT = (
         "switch_hit",
