@@ -1,7 +1,7 @@
 """Why a motor board may not move masses: what was observed, and what to do next.
 
-Every sentence says what was requested, how long ago, and what was received last. None names a cause that
-nobody saw: a board that is silent may be unplugged, switched off, busy or hung.
+Every sentence says what was requested, how long ago, and what was received last. None names a cause
+that nobody saw: a board that is silent may be unplugged, switched off, busy or hung.
 """
 
 from equipoise.model.reasons.reason import Code
