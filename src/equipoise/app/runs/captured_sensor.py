@@ -57,7 +57,8 @@ def _plain(driver: str, settings: Mapping[str, Setting]) -> SensorUnit:
     """Return a sensor in the body's axes that gives all that its driver can."""
     gives: tuple[Gives, ...] = ("attitude",) if driver == "natnet" else ("attitude", "rate")
     columns = settings.get("columns", ())
-    names = {declared(name)[0] for name in columns} if isinstance(columns, tuple) else set[str]()
+    listed = columns if isinstance(columns, tuple) else ()
+    names = {declared(name)[0] for name in listed if isinstance(name, str)}
     if driver == "lines":
         sets: dict[Gives, tuple[tuple[str, ...], ...]] = {
             "attitude": (QUATERNION, ANGLES),
