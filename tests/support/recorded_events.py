@@ -28,6 +28,10 @@ def events_of(path: Path) -> tuple[RecordedEvent, ...]:
     zero = time_zero(found) or 0
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
     events = [each for each in found.messages if each.channel_id in ids]
-    return tuple(
-        RecordedEvent((each.log_time - zero) / PER_S, **json.loads(each.data)) for each in events
-    )
+    return tuple(_event(each.log_time, zero, json.loads(each.data)) for each in events)
+
+
+def _event(ns: int, zero: int, message: dict[str, Any]) -> RecordedEvent:
+    stamp = message.pop("timestamp")
+    assert ns == stamp["sec"] * PER_S + stamp["nsec"]
+    return RecordedEvent((ns - zero) / PER_S, **message)

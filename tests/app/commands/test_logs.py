@@ -115,6 +115,9 @@ class Clock:
     def monotonic(self):
         return sum(self.waits)
 
+    def time_ns(self):
+        return round(1e9 * self.monotonic())
+
     def sleep(self, seconds):
         self.waits.append(seconds)
 

@@ -71,4 +71,4 @@ def balance(
     if plan is not None:
         limits = replace(limits, plan=plan_from(plan, bed).manoeuvre)
     bench = platform if own else bench_for(bed, limits.plan, checks.seed_of(seed))
-    return run(bench, goal, limits, on_step)
+    return run(bench, goal, limits, noting(bench, on_step))

@@ -4,7 +4,6 @@ from collections.abc import Callable, Generator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from time import time_ns
 
 from equipoise.app.bench.emulation import hardware_of
 from equipoise.app.bench.port_check import check_reachable
@@ -14,6 +13,7 @@ from equipoise.hardware.bench.controller_process import DistantKeeper
 from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.port_lock import commanding
 from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.links.device_links import BoardLink, Links
 from equipoise.hardware.links.sensor_link import SensorLink
@@ -40,10 +40,10 @@ class Wanted:
 
 
 class KeptBench:
-    """A keeper and its record, in the process that has the ports."""
+    """A keeper, its clock and its record, in the process that has the ports."""
 
     def __init__(self, wanted: Wanted) -> None:
-        self._held = ExitStack()
+        self._held, self.clock = ExitStack(), WallClock()
         try:
             self.keeper = self._begun(wanted)
         except BaseException:
@@ -56,13 +56,13 @@ class KeptBench:
         self._held.enter_context(commanding([device.port.address for device in devices]))
         check_reachable(hardware)
         keeper = keeper_of(wanted.testbed)
-        zero_ns = time_ns()
         if wanted.record is not None:
             drivers = {device.name: device.driver for device in devices}
-            opening = Opening(zero_ns, text_of_testbed(wanted.testbed), drivers)
+            text = text_of_testbed(wanted.testbed)
+            opening = Opening(self.clock.begun_ns, text, wanted.testbed, drivers)
             keeper.listen(self._held.enter_context(LiveRecording(wanted.record, opening)))
         if wanted.live:
-            keeper.listen(self._held.enter_context(LiveView(zero_ns)))
+            keeper.listen(self._held.enter_context(LiveView(self.clock.begun_ns, wanted.testbed)))
         self._held.callback(keeper.close)  # comes first: masses stop, and the record has it
         return keeper
 

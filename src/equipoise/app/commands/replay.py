@@ -37,19 +37,19 @@ def replay(
 
     from equipoise.app.arguments.checks import not_negative
     from equipoise.app.arguments.inputs import fitting_recording_of, testbed_from
-    from equipoise.app.live.replay import replayed, shown_lines
+    from equipoise.app.live.replay import begun, replayed, shown_lines
 
     not_negative("--speed", speed)
     bed = testbed_from(testbed)
     recording = fitting_recording_of(file, reading, bed)
+    pace, zero_ns = begun(recording, speed)
     with ExitStack() as stack:
         onlookers: list[Onlooker] = [stack.enter_context(shown_lines(bed))]
         if foxglove:
-            from equipoise.app.live.replay import begun_ns
             from equipoise.io.mcap.foxglove_server import LiveView
 
-            view = stack.enter_context(LiveView(begun_ns(recording)))
+            view = stack.enter_context(LiveView(zero_ns, bed))
             stdout().print(f"Foxglove WebSocket: {view.address}", markup=False)
             onlookers.append(view.rows)
-        replayed(bed, recording, speed, onlookers)
+        replayed(bed, recording, pace, onlookers)
     return 0

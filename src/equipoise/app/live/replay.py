@@ -23,18 +23,21 @@ FRAME = 0.1  # s, chosen: as often as a person can follow numbers
 LINE = 1.0  # s of the recording from line to line, where there is no terminal (chosen)
 
 
-def begun_ns(recording: Recording) -> int:
-    """Return UTC at the recording's time zero (ns), as if its first row arrived now."""
-    return time.time_ns() - nanoseconds(recording.span[0])
+def begun(recording: Recording, speed: float) -> tuple[Pace, int]:
+    """Return a pace that begins now (0: as fast as possible) and UTC at time zero, ns.
+
+    The recording's first row counts as arriving now, at one moment of both.
+    """
+    pace = Pace(speed, lagging=math.inf)  # readings keep to the speed, whatever each takes
+    return pace, time.time_ns() - nanoseconds(recording.span[0])
 
 
 def replayed(
-    testbed: Testbed, recording: Recording, speed: float, onlookers: Sequence[Onlooker]
+    testbed: Testbed, recording: Recording, pace: Pace, onlookers: Sequence[Onlooker]
 ) -> None:
-    """Show a recording from its beginning to its end; 0: as fast as possible."""
-    pace = Pace(speed, lagging=math.inf)  # readings keep to the speed, whatever each takes
+    """Show a recording from its beginning to its end at a pace."""
     bench = ReplayedBench(testbed, recording, lambda passed: time.sleep(pace.wait(passed)))
-    step = FRAME * (speed or LINE / FRAME)
+    step = FRAME * (pace.speed or LINE / FRAME)
     while True:
         try:
             rows = bench.read(step)

@@ -104,7 +104,7 @@ class Keeper:
 
     def begin(self) -> None:
         """Note that the platform is free from now on, and forget the rows before."""
-        self._note("start", "the platform is free from here on", {})
+        self.note("start", "the platform is free from here on", {})
         self._received.taken()
 
     def health(self) -> list[Health]:
@@ -114,7 +114,7 @@ class Keeper:
     def home(self) -> None:
         """Let every board find its position; ends a stop whose cause is gone."""
         self.trip, self._before = None, {}
-        self._note("command", "home", {})
+        self.note("command", "home", {})
         if self.trip is None:  # to note it may have filled the disk
             self.links.home(self.t)
 
@@ -129,7 +129,7 @@ class Keeper:
         self._able()
         by_name = {self.testbed.masses[i].name: goal for i, goal in goals.items()}
         reported = ", ".join(f"{name} to {goal / MM:.3f} mm" for name, goal in by_name.items())
-        self._note("command", f"go: {reported}", by_name)
+        self.note("command", f"go: {reported}", by_name)
         self._able()  # to note it may have filled the disk
         self.links.go(by_name, self.t)
 
@@ -138,15 +138,19 @@ class Keeper:
         if why is not None:
             self._stop(why)
             return
-        self._note("command", "halt", {})
+        self.note("command", "halt", {})
         self.links.halt(self.t)
+
+    def note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
+        """Hand on what happened now, here or at whoever commands."""
+        self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
 
     def close(self) -> None:
         """Stop every mass, note how well each device answered, and close every port."""
         self.links.halt(self.t)
         self.links.send(self.t)
         for each in self.links.health:
-            self._note("health", each.sentence, each.data)
+            self.note("health", each.sentence, each.data)
         self.links.close()
 
     def _able(self) -> None:
@@ -196,10 +200,7 @@ class Keeper:
 
     def _warn(self, why: Reason) -> None:
         data = {"code": why.code, "parameters": list(why.parameters), "numbers": dict(why.numbers)}
-        self._note("interlock", why.sentence, data)
-
-    def _note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
-        self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
+        self.note("interlock", why.sentence, data)
 
     def _report(self, t: float) -> None:
         """Hand on what was received."""

@@ -5,7 +5,8 @@ crashed, the keeper halts every mass, closes the record and ends. Signals to sto
 commander alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
     commander to keeper    (n, "go", targets)  (n, "home")  (n, "begin")  (n, "halt", why)
-                           (n, "health")       n: counts the commands
+                           (n, "health")       (n, "note", kind, sentence, data)
+                           n: counts the commands
     keeper to commander    ("news", News)      ("answer", (n, what came of it, or an error))
 """
 
@@ -48,6 +49,7 @@ class Kept(Protocol):
     """What the process keeps: a keeper, and what is to be closed with it."""
 
     keeper: Keeper
+    clock: WallClock  # the bench's time, from its one origin
 
     def close(self) -> None:
         """Stop every mass, close ports and records."""
@@ -65,15 +67,15 @@ def run_keeper(pipe: Pipe, make: Callable[[Any], Kept], what: Any) -> None:
         return
     sender = threading.Thread(target=_send_all, args=(pipe, box), daemon=True)
     sender.start()
-    box.put(("answer", (0, None)))
+    box.put(("answer", (0, kept.clock.begun_ns)))
     try:
-        _serve(pipe, kept.keeper, box)
+        _serve(pipe, kept, box)
     finally:
         kept.close()
 
 
-def _serve(pipe: Pipe, keeper: Keeper, box: "queue.SimpleQueue[tuple[str, Any] | None]") -> None:
-    clock, reported, before = WallClock(), float("-inf"), None
+def _serve(pipe: Pipe, kept: Kept, box: "queue.SimpleQueue[tuple[str, Any] | None]") -> None:
+    keeper, clock, reported, before = kept.keeper, kept.clock, float("-inf"), None
     while True:
         keeper.turn(clock.now)
         answers: list[tuple[str, Any]] = []
@@ -107,6 +109,7 @@ def _carried_out(keeper: Keeper, verb: str, *what: Any) -> Any:
         "begin": keeper.begin,
         "halt": keeper.halt,
         "health": keeper.health,
+        "note": keeper.note,
     }
     try:
         return verbs[verb](*what)
@@ -134,7 +137,7 @@ class DistantKeeper:
         self._parts: list[Recording] = []
         self._requested = 0  # commands so far
         try:
-            self._answer(BEGIN)
+            self.begun_ns: int = self._answer(BEGIN)  # UTC at bench time zero, ns since 1970
         except BaseException:  # Ctrl-C too: nobody else would close it, and it waits for the pipe
             self.close()
             raise
@@ -184,6 +187,10 @@ class DistantKeeper:
     def health(self) -> list[Health]:
         """Return how well each device answers."""
         return self._request("health")
+
+    def note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
+        """Put what happened into the record and the live view."""
+        self._request("note", kind, sentence, dict(data))
 
     def close(self) -> None:
         """Stop every mass and end the keeper."""

@@ -26,6 +26,11 @@ class Clock(Protocol):
     """The bench's time."""
 
     @property
+    def begun_ns(self) -> int:
+        """UTC at bench time zero, ns since 1970."""
+        ...
+
+    @property
     def now(self) -> float:
         """Now, s."""
         ...
@@ -48,6 +53,11 @@ class RealBench:
     def time(self) -> float:
         """Bench time, s."""
         return self._clock.now
+
+    @property
+    def begun_ns(self) -> int:
+        """UTC at bench time zero, ns since 1970: what a row's stamp in UTC is counted from."""
+        return self._clock.begun_ns
 
     def start(self) -> None:
         """Wait until every board answers, and let those that need it find their position.
@@ -101,6 +111,10 @@ class RealBench:
         """Halt every mass where it is."""
         self._keeper.halt()
         self._turn()
+
+    def note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
+        """Put what happened into the record and the live view."""
+        self._keeper.note(kind, sentence, data)
 
     def health(self) -> list[Health]:
         """Return how well each device answers; nothing where the keeper has ended."""

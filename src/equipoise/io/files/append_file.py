@@ -62,9 +62,10 @@ class DurableFile:
             raise
         return len(data)
 
-    def seek(self, offset: int, whence: int = 0) -> int:
-        """Return the place in the file; a writer of a stream asks for nothing else."""
-        return self._file.seek(offset, whence)
+    @property
+    def closed(self) -> bool:
+        """Say whether it takes no more, since it was closed."""
+        return self._file.closed
 
     def flush(self) -> None:
         """Have the disk take what was written, soon; does not wait for it."""

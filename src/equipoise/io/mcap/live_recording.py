@@ -2,10 +2,11 @@
 
 The file is a row of chunks, each with its own checksum; what follows the last whole chunk is lost
 and nothing before it. A chunk is ended, and given to the disk, every half second and with every
-event. An index of the chunks would have to be kept in memory until the end (0.3 kB a chunk, 10 % of
-a process in 8 h), so there is none: readers go through the file, or ``equipoise repair`` writes one
-that has it. Messages are those of ``log_messages``. In front stand the testbed file as it was
-(attachment ``testbed.toml``) and the metadata ``equipoise``: versions, the drivers, the start.
+event. When the file is closed, its index is written (``mcap_writer``). A file that was never
+closed has neither index nor summary, and readers go through it; a summary without index would
+tell them that there is nothing to read. Messages are those of ``log_messages``. In front stand the
+testbed file as it was (attachment ``testbed.toml``) and the metadata ``equipoise``: versions, the
+drivers, the start.
 
 Format: MCAP, public specification (mcap.dev/spec), chunks compressed by Zstandard.
 """
@@ -20,10 +21,11 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.files.append_file import DurableFile
-from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.log_messages import Topics
+from equipoise.io.mcap.mcap_writer import McapWriter
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
 from equipoise.model.version import __version__
 
 EVERY = 0.5  # s, chosen: half of the second that a crash may cost; the rest is for a slow system
@@ -47,37 +49,22 @@ class Opening:
 
     zero_ns: int  # UTC at bench time zero, ns since 1970
     testbed: str = ""  # text of the testbed's file
+    platform: Testbed | None = None  # what it tells of topics and of the scene
     drivers: Mapping[str, str] = field(default_factory=dict[str, str])  # a device: its driver
 
 
 class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
     """A recording that grows; every method raises RecordingStopped once the file takes no more."""
 
-    def __init__(self, path: str | Path, opening: Opening, indexed: bool = False) -> None:
-        """Begin the file; InputError if it cannot be, or holds something already.
-
-        ``indexed``: with an index, for a file that is written in one go.
-        """
+    def __init__(self, path: str | Path, opening: Opening) -> None:
+        """Begin the file; InputError if it cannot be, or holds something already."""
         self._path = str(path)
-        foxglove = log_library("foxglove", self._path)
-        mcap = log_library("foxglove.mcap", self._path)
-        context = foxglove.Context()
-        # A chunk is kept in memory and written in one go: no half-filled header in the file.
-        options = mcap.MCAPWriteOptions(
-            disable_seeking=True, compression_threads=0,
-            emit_message_indexes=indexed, emit_chunk_indexes=indexed,
-        )  # fmt: skip
-        self._topics = Topics(context, opening.zero_ns, self._path)
         self._file = DurableFile(path)
         self._flushed: float | None = None
-        self._writer: Any = None
         try:
-            self._writer = self._guarded(
-                lambda: foxglove.open_mcap(self._file, context=context, writer_options=options)
-            )
-            self._guarded(lambda: self._open(opening))
-        except RecordingStopped:
-            self._end()
+            self._writer, self._topics = self._guarded(lambda: self._begun(opening))
+        except EquipoiseError:
+            self._file.close()
             raise
 
     def rows(self, recording: Recording) -> None:
@@ -95,8 +82,11 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
             self._flush(t)
 
     def close(self) -> None:
-        """End the file, with its index if it has one."""
-        self._end()
+        """End the file, with its index."""
+        if not self._file.closed:
+            with contextlib.suppress(RecordingStopped):
+                self._guarded(lambda: self._writer.finish(self._path))
+            self._file.close()
         self._guarded(lambda: None)  # says what failed, the last wait for the disk included
 
     def __exit__(self, *raised: object) -> None:
@@ -104,7 +94,8 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
         with contextlib.suppress(*[RecordingStopped] * any(raised)):
             self.close()
 
-    def _open(self, opening: Opening) -> None:
+    def _begun(self, opening: Opening) -> tuple[McapWriter, Topics]:
+        """Write what stands in front of the first row."""
         start = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=opening.zero_ns // 1000)
         message = {
             "equipoise": __version__,
@@ -115,35 +106,27 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
             ZERO_KEY: str(opening.zero_ns),
             **{f"{DRIVER_KEY}{name}": driver for name, driver in opening.drivers.items()},
         }
-        self._writer.write_metadata(METADATA, message)
+        writer = McapWriter(self._file.write, self._path)
+        writer.metadata(METADATA, message)
         if opening.testbed:
-            self._writer.attach(
-                log_time=opening.zero_ns, create_time=opening.zero_ns, name=TESTBED_FILE,
-                media_type="application/toml", data=opening.testbed.encode(),
-            )  # fmt: skip
-        self._writer.flush()
-
-    def _end(self) -> None:
-        """Close the file, whether it failed or not."""
-        if self._writer is not None:
-            with contextlib.suppress(RuntimeError):  # what failed is known to the file
-                self._writer.close()
-        self._file.close()
+            text = opening.testbed.encode()
+            writer.attach(TESTBED_FILE, "application/toml", opening.zero_ns, text)
+        topics = Topics(writer.channel, opening.zero_ns, self._path, opening.platform)
+        self._file.flush()
+        return writer, topics
 
     def _flush(self, t: float) -> None:
         self._flushed = t
         self._guarded(self._writer.flush)
+        self._file.flush()
 
     def _guarded(self, work: Any) -> Any:
-        """Return what the work gives; a file that failed, then or before, stops the recording.
-
-        The library reports a failed write as an error without a cause, or only on stderr.
-        """
+        """Return what the work gives; a file that failed, then or before, stops the recording."""
         done = None
         if self._file.failure is None:
             try:
                 done = work()
-            except RuntimeError:
+            except OSError:
                 if self._file.failure is None:
                     raise
         if self._file.failure is not None:

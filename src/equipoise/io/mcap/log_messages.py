@@ -3,30 +3,38 @@
 Topics, all times in ns on the clock of the log (UTC of a real bench):
 
     /attitude   foxglove.FrameTransform, laboratory to body: Foxglove and Lichtblick show it in 3D
+    /scene      foxglove.SceneUpdate: what stands in these frames (``foxglove_scene``)
     /log        foxglove.Log: the sentence of each event, for people
     /events     JSON {"kind", "sentence", "data"}: the same events, for programs
     /rate /masses /momentum /torque /devices /field /temperature
                 JSON, one number for each name, the unit at its end: {"x_rad_s": 0.01, ...}
 
+Every message in JSON begins with its time, {"timestamp": {"sec", "nsec"}}, as those of Foxglove do.
 JSON prints a double with the digits that give the same double again, so values come back exactly.
-Schemas of the first two: the public Foxglove schemas. The names of a topic's columns are in its
+Schemas of the first three: the public Foxglove schemas. The names of a topic's columns are in its
 channel's metadata, so that they survive in whatever order a program writes JSON.
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from equipoise.io.columns.device_columns import si_column
 from equipoise.io.columns.native_columns import TEMPERATURE
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
 from equipoise.io.formats.optional_libraries import log_library
+from equipoise.io.mcap.foxglove_scene import BODY, LABORATORY, Scene
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.testbed import Testbed
 
-ATTITUDE_TOPIC, LOG_TOPIC, EVENT_TOPIC = "/attitude", "/log", "/events"
-LABORATORY, BODY = "laboratory", "body"
+ATTITUDE_TOPIC, SCENE_TOPIC, LOG_TOPIC, EVENT_TOPIC = "/attitude", "/scene", "/log", "/events"
+STAMP = "timestamp"  # key of a message's time
 CHANNEL_KEY, NAMES_KEY = "equipoise.channel", "equipoise.names"  # of a channel's metadata
+Send = Callable[[bytes, int], None]  # takes a message and its time, ns
+# Opens a topic: its name, encoding, schema (with name, encoding and data), metadata.
+Opener = Callable[[str, str, Any, Mapping[str, str]], Send]
 START = "start"  # kind of the event with which the platform is free
 LEVELS = {"interlock": "Error", "fault": "Warning"}  # how loud a kind of event is; else Info
 XYZ_UNITS = {"rate": "rad_s", "momentum": "N_m_s", "torque": "N_m", "field": "T"}
@@ -48,17 +56,28 @@ def value_names(channel: str, names: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(f"{axis}_{XYZ_UNITS[channel]}" for axis in "xyz")
 
 
-class Topics:
-    """The topics of one context, made as their first rows come."""
+@dataclass(frozen=True, slots=True)
+class JsonSchema:
+    """The schema of a topic in JSON."""
 
-    def __init__(self, context: Any, zero_ns: int, where: str) -> None:
+    name: str
+    data: bytes
+    encoding: str = "jsonschema"
+
+
+class Topics:
+    """The topics of a file or a live view; those that a bench is known to have from the start."""
+
+    def __init__(
+        self, opener: Opener, zero_ns: int, where: str, platform: Testbed | None = None
+    ) -> None:
         """Take the clock's reading at bench time zero, and what to call this in an error."""
-        self._context, self._zero_ns, self._where = context, zero_ns, where
-        self._foxglove = log_library("foxglove", where)
+        self._opener, self._zero_ns, self._where = opener, zero_ns, where
         self._messages = log_library("foxglove.messages", where)
-        self._channels = log_library("foxglove.channels", where)
-        self._open: dict[str, Any] = {}
+        self._open: dict[str, Send] = {}
         self._names: dict[str, tuple[str, ...]] = {}
+        self._scene = None if platform is None else Scene(platform, self._messages)
+        self._opened_early(platform)
 
     def rows(self, recording: Recording) -> None:
         """Send the rows of every channel."""
@@ -71,6 +90,8 @@ class Topics:
             else:
                 named = {"masses": recording.mass_names, "devices": recording.device_names}
                 self._numbers(channel, named.get(channel, ()), samples)
+        if self._scene is not None:
+            self._shown(self._scene.moved(recording))
 
     def event(self, t: float, kind: str, sentence: str, data: Mapping[str, Any]) -> None:
         """Send what happened at a time (s), for people and for programs."""
@@ -81,13 +102,41 @@ class Topics:
             message=sentence,
             name=kind,
         )
-        self._opened(LOG_TOPIC, self._channels.LogChannel).log(log, log_time=ns)
+        self._log()(log.encode(), ns)
         message = {"kind": kind, "sentence": sentence, "data": dict(data)}
-        events = self._open.get(EVENT_TOPIC) or self._json(EVENT_TOPIC, _event_schema(), {})
-        events.log(json.dumps(message).encode(), log_time=ns)
+        self._events()(_json(ns, message), ns)
+        if self._scene is not None:
+            self._shown(self._scene.estimated(t, data))
+
+    def scene_again(self, t: float) -> None:
+        """Send the scene as it stands at a time (s), for who has not seen it yet."""
+        if self._scene is not None:
+            self._shown([self._scene.now(t)])
+
+    def _opened_early(self, platform: Testbed | None) -> None:
+        """Open the topics of a bench, so that who looks before the first row finds them."""
+        if platform is None:
+            return
+        self._log()
+        self._events()
+        self._known(SCENE_TOPIC, self._messages.SceneUpdate)
+        units = () if platform.hardware is None else platform.hardware.sensors
+        given = {channel for unit in units for channel in unit.gives}
+        if platform.attitude is not None or "attitude" in given:
+            self._known(ATTITUDE_TOPIC, self._messages.FrameTransform)
+        if platform.gyro is not None or "rate" in given:
+            self._channel_of("rate", (), 3)
+        if platform.masses:
+            self._channel_of("masses", platform.mass_names, len(platform.masses))
+
+    def _shown(self, updates: Iterable[tuple[float, Callable[[Any], Any]]]) -> None:
+        for t, update in updates:
+            ns = self._at(t)
+            message = update(self._stamp(ns)).encode()
+            self._known(SCENE_TOPIC, self._messages.SceneUpdate)(message, ns)
 
     def _attitude(self, samples: Samples) -> None:
-        channel = self._opened(ATTITUDE_TOPIC, self._channels.FrameTransformChannel)
+        send = self._known(ATTITUDE_TOPIC, self._messages.FrameTransform)
         messages = self._messages
         here = messages.Vector3(x=0.0, y=0.0, z=0.0)
         for t, (w, x, y, z) in zip(samples.t.tolist(), samples.values.tolist(), strict=True):
@@ -97,41 +146,52 @@ class Topics:
                 timestamp=self._stamp(ns), parent_frame_id=LABORATORY, child_frame_id=BODY,
                 translation=here, rotation=turn,
             )  # fmt: skip
-            channel.log(transform, log_time=ns)
+            send(transform.encode(), ns)
 
     def _numbers(self, name: str, named: tuple[str, ...], samples: Samples) -> None:
-        keys, channel = self._channel_of(name, named, samples.values.shape[1])
+        keys, send = self._channel_of(name, named, samples.values.shape[1])
         for t, row in zip(samples.t.tolist(), samples.values.tolist(), strict=True):
-            message = json.dumps(dict(zip(keys, row, strict=True)))
-            channel.log(message.encode(), log_time=self._at(t))
+            ns = self._at(t)
+            send(_json(ns, dict(zip(keys, row, strict=True))), ns)
 
     def _channel_of(
         self, name: str, named: tuple[str, ...], width: int
-    ) -> tuple[tuple[str, ...], Any]:
-        """Return what a topic calls its numbers, and the topic, opened with its first rows."""
+    ) -> tuple[tuple[str, ...], Send]:
+        """Return what a topic calls its numbers, and the topic, opened when it is first met."""
         topic, named = topic_of(name), named or tuple(str(k + 1) for k in range(width))
         if name not in ("masses", "devices"):
             named = ()
         keys = value_names(name, named)
         if topic not in self._open:
             message = {CHANNEL_KEY: name, NAMES_KEY: json.dumps(named)}
-            self._json(topic, _schema(f"equipoise.{name}", keys), message)
+            numbers = {key: {"type": "number"} for key in keys}
+            self._json_topic(topic, _schema(f"equipoise.{name}", numbers), message)
             self._names[topic] = named
         if self._names[topic] != named:
             found = f"{name} called {', '.join(named)}"
             raise InputError(self._where, found, "those that it began with")
         return keys, self._open[topic]
 
-    def _json(self, topic: str, schema: dict[str, Any], metadata: dict[str, str]) -> Any:
-        self._open[topic] = self._foxglove.Channel(
-            topic, schema=schema, context=self._context, metadata=metadata
-        )
+    def _log(self) -> Send:
+        return self._known(LOG_TOPIC, self._messages.Log)
+
+    def _events(self) -> Send:
+        parts = {
+            "kind": {"type": "string"},
+            "sentence": {"type": "string"},
+            "data": {"type": "object"},
+        }
+        return self._json_topic(EVENT_TOPIC, _schema("equipoise.event", parts), {})
+
+    def _json_topic(self, topic: str, schema: JsonSchema, metadata: Mapping[str, str]) -> Send:
+        if topic not in self._open:
+            self._open[topic] = self._opener(topic, "json", schema, metadata)
         return self._open[topic]
 
-    def _opened(self, topic: str, kind: Any) -> Any:
+    def _known(self, topic: str, kind: Any) -> Send:
         """Return the topic of a known schema, opened when it is first met."""
         if topic not in self._open:
-            self._open[topic] = kind(topic, context=self._context)
+            self._open[topic] = self._opener(topic, "protobuf", kind.get_schema(), {})
         return self._open[topic]
 
     def _at(self, t: float) -> int:
@@ -141,11 +201,17 @@ class Topics:
         return self._messages.Timestamp(ns // PER_S, ns % PER_S)
 
 
-def _schema(title: str, keys: tuple[str, ...]) -> dict[str, Any]:
-    numbers = {key: {"type": "number"} for key in keys}
-    return {"title": title, "type": "object", "properties": numbers, "required": list(keys)}
+def _json(ns: int, message: Mapping[str, Any]) -> bytes:
+    """Return a message with its time in front, as Foxglove's own JSON schemas have it."""
+    stamp = {"sec": ns // PER_S, "nsec": ns % PER_S}
+    return json.dumps({STAMP: stamp, **message}).encode()
 
 
-def _event_schema() -> dict[str, Any]:
-    parts = {"kind": {"type": "string"}, "sentence": {"type": "string"}, "data": {"type": "object"}}
-    return {"title": "equipoise.event", "type": "object", "properties": parts}
+def _schema(title: str, parts: Mapping[str, Any]) -> JsonSchema:
+    whole = {"type": "integer", "minimum": 0}
+    stamp = {"title": "time", "type": "object", "properties": {"sec": whole, "nsec": whole}}
+    schema = {
+        "title": title, "type": "object",
+        "properties": {STAMP: stamp, **parts}, "required": [STAMP, *parts],
+    }  # fmt: skip
+    return JsonSchema(title, json.dumps(schema).encode())

@@ -59,7 +59,7 @@ def write_mcap(recording: Recording, path: str | Path) -> None:
     times = np.unique(np.concatenate([np.zeros(0), *(channel.t for channel in channels)]))
     first = float(times[0]) if len(times) else 0.0
     ends = np.append(np.flatnonzero(np.diff(np.floor((times - first) / SLICE))), len(times) - 1)
-    with LiveRecording(path, Opening(max(-nanoseconds(first), 0)), indexed=True) as file:
+    with LiveRecording(path, Opening(max(-nanoseconds(first), 0))) as file:
         since = -np.inf
         for until in times[ends] if len(times) else ():
             file.rows(rows_between(recording, since, until))

@@ -4,6 +4,7 @@ from pathlib import Path
 from time import time_ns
 
 from equipoise.app.dashboard.protocol.data_folder import new_recording
+from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.io.formats.clock_units import nanoseconds
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.testbed.testbed_file import text_of_testbed
@@ -23,8 +24,9 @@ class Recorder:
         """Begin a new file; EquipoiseError where that cannot be."""
         if self._file is None:
             path = new_recording(self._folder, bench.testbed.name)
-            zero = time_ns() - nanoseconds(bench.time)
-            self._file = LiveRecording(path, Opening(zero, text_of_testbed(bench.testbed)))
+            bed = bench.testbed
+            opening = Opening(_begun_ns(bench), text_of_testbed(bed), bed)
+            self._file = LiveRecording(path, opening)
             self.name = path.relative_to(self._folder).as_posix()
 
     def rows(self, t: float, rows: Recording) -> None:
@@ -43,3 +45,10 @@ class Recorder:
         file, self._file, self.name = self._file, None, None
         if file is not None:
             file.close()
+
+
+def _begun_ns(bench: Bench) -> int:
+    """Return UTC at bench time zero, ns: a real bench's own; of any other, as if it is now."""
+    if isinstance(bench, RealBench):
+        return bench.begun_ns
+    return time_ns() - nanoseconds(bench.time)
