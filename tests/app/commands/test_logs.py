@@ -1,7 +1,11 @@
 """`equipoise convert`, `repair` and `replay`."""
 
+import json
+
+import foxglove
 import numpy as np
 import pytest
+from foxglove.mcap import MCAPWriteOptions
 from mcap.reader import make_reader
 
 from equipoise.app.arguments.inputs import fitting_recording_of
@@ -47,8 +51,37 @@ def test_a_cut_recording_is_repaired_and_says_up_to_when(equipoise, record_file,
     assert not (tmp_path / "twice.mcap").exists()
 
 
-def test_a_live_record_is_given_an_index_and_keeps_every_message(equipoise, tmp_path):
+def without_index(path):
+    """Write a record as version 0.1 did: a summary that knows no chunk."""
+    context = foxglove.Context()
+    options = MCAPWriteOptions(
+        disable_seeking=True, emit_message_indexes=False, emit_chunk_indexes=False
+    )
+    with foxglove.open_mcap(path, context=context, writer_options=options):
+        numbers = {f"{axis}_rad_s": {"type": "number"} for axis in "xyz"}
+        channel = foxglove.Channel(
+            "/rate", schema={"type": "object", "properties": numbers}, context=context,
+            metadata={"equipoise.channel": "rate", "equipoise.names": "[]"},
+        )  # fmt: skip
+        for k in range(160):
+            row = {"x_rad_s": 0.01 * k, "y_rad_s": 0.0, "z_rad_s": 0.0}
+            channel.log(json.dumps(row).encode(), log_time=10**18 + k * 25_000_000)
+
+
+def test_a_record_without_index_is_given_one_and_keeps_every_message(equipoise, tmp_path):
     """As mcap's own reader finds: the same messages in both, chunks in the index of one."""
+    without_index(tmp_path / "old.mcap")
+    reported = equipoise("repair", "old.mcap", "--out", "indexed.mcap")
+    assert (reported.code, "It has no index; the new file has one" in reported.out) == (0, True)
+    assert chunks_and_messages("old.mcap") == (0, chunks_and_messages("indexed.mcap")[1])
+    assert chunks_and_messages("indexed.mcap")[0] > 0
+    again = equipoise("repair", "indexed.mcap", "--out", "twice.mcap")
+    assert "indexed.mcap is whole" in again.out
+    assert not (tmp_path / "twice.mcap").exists()
+
+
+def test_a_live_record_needs_no_repair_once_it_is_closed(equipoise, tmp_path):
+    """Its index knows every chunk; what was attached is there."""
     t, none = np.arange(80) / 40, np.zeros((80, 3))
     with LiveRecording(tmp_path / "live.mcap", Opening(10**18, "name = 'x'")) as live:
         live.event(0.5, "command", "go", {"x": 1e-3})
@@ -56,14 +89,12 @@ def test_a_live_record_is_given_an_index_and_keeps_every_message(equipoise, tmp_
         live.turn(2.0)
         live.rows(Recording(rate=Samples(t + 2.0, none)))
     reported = equipoise("repair", "live.mcap", "--out", "indexed.mcap")
-    assert (reported.code, "It has no index; the new file has one" in reported.out) == (0, True)
-    assert chunks_and_messages("live.mcap") == (0, chunks_and_messages("indexed.mcap")[1])
-    assert chunks_and_messages("indexed.mcap")[0] > 0
-    (attachment,) = salvaged((tmp_path / "indexed.mcap").read_bytes(), "").attachments
+    assert "live.mcap is whole" in reported.out
+    known, messages = chunks_and_messages("live.mcap")
+    assert known > 1
+    assert sum(topic == "/rate" for topic, _, _ in messages) == 160
+    (attachment,) = salvaged((tmp_path / "live.mcap").read_bytes(), "").attachments
     assert (attachment.name, attachment.data) == ("testbed.toml", b"name = 'x'")
-    again = equipoise("repair", "indexed.mcap", "--out", "twice.mcap")
-    assert "indexed.mcap is whole" in again.out
-    assert not (tmp_path / "twice.mcap").exists()
 
 
 def chunks_and_messages(path):

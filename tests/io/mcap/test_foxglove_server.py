@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from websockets.sync.client import connect
 
-from equipoise.io.mcap.foxglove_server import LiveView
+from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
 
@@ -48,7 +48,8 @@ def test_a_client_receives_rows_with_their_times():
                 observed = message if isinstance(message, bytes) and message[0] == 1 else b""
     kind, subscription, ns = struct.unpack_from("<BIQ", observed)
     assert (kind, subscription, ns) == (1, 7, ZERO + 250_000_000)
-    assert json.loads(observed[13:]) == {"x_rad_s": 0.1, "y_rad_s": 0.0, "z_rad_s": -2.0}
+    stamp = {"timestamp": {"sec": ZERO // 10**9, "nsec": ZERO % 10**9 + 250_000_000}}
+    assert json.loads(observed[13:]) == {**stamp, "x_rad_s": 0.1, "y_rad_s": 0.0, "z_rad_s": -2.0}
 
 
 def test_it_listens_on_this_computer_alone():
@@ -61,3 +62,15 @@ def test_an_occupied_port_is_reported():
         port = int(view.address.rsplit(":", 1)[1])
         with pytest.raises(InputError, match="a port that is free"):
             LiveView(ZERO, port=port)
+
+
+def test_the_layout_that_is_shipped_shows_the_topics_there_are():
+    """A 3-D panel of the scene in the laboratory's frame, plots, and the log (called RosOut)."""
+    layout = LAYOUT.read_text(encoding="utf-8")
+    panels = json.loads(layout)["configById"]
+    (scene,) = [panel for name, panel in panels.items() if name.startswith("3D!")]
+    assert scene["topics"]["/scene"] == {"visible": True}
+    assert scene["followTf"] == "laboratory"
+    assert {name.partition("!")[0] for name in panels} >= {"3D", "Plot", "RosOut"}
+    for topic in ("/rate", "/masses", "/log", "/scene"):
+        assert topic in layout

@@ -63,9 +63,10 @@ def test_rows_are_in_the_file_after_half_a_second(tmp_path):
     """Not at a turn before, so that chunks are not of one row."""
     path = tmp_path / "run.mcap"
     with LiveRecording(path, OPENING) as file:
+        file.rows(rows(0, 1))  # topics stand in the file from when they are opened
         file.turn(0.0)
         size = path.stat().st_size
-        file.rows(rows(0, 10))
+        file.rows(rows(1, 9))
         file.turn(EVERY - 0.01)
         assert path.stat().st_size == size
         file.turn(EVERY)
@@ -92,7 +93,8 @@ def test_a_whole_file_is_read_by_others_and_says_what_it_is(tmp_path):
     assert schemas["/log"] == ("foxglove.Log", "protobuf")
     assert schemas["/masses"] == ("equipoise.masses", "json")
     assert first.log_time == NOON
-    assert first.data == b'{"x_rad_s": 0.0, "y_rad_s": -0.0, "z_rad_s": 0.0}'
+    stamp = b'{"timestamp": {"sec": %d, "nsec": %d}, ' % (NOON // 10**9, NOON % 10**9)
+    assert first.data == stamp + b'"x_rad_s": 0.0, "y_rad_s": -0.0, "z_rad_s": 0.0}'
     assert metadata.metadata["equipoise"] == __version__
     assert metadata.metadata["driver imu"] == "xsens"
     assert metadata.metadata["start_utc"].startswith("2025-06-15T15:06:40.123456")

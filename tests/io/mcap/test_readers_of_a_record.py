@@ -169,7 +169,7 @@ def test_a_cut_record_gives_every_message_before_the_cut(read):
         assert [each for each in found if each not in wanted()] == [], size
 
 
-def test_an_indexed_reader_is_never_told_that_a_cut_record_is_empty():
+def test_no_indexed_reader_finds_a_cut_record_empty():
     """A file without its end has no summary: mcap's reader says so, others go through the file."""
     content, _ = recorded()
     for size, _ in cuts():

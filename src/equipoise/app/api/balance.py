@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from equipoise.app.arguments import checks
 from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
+from equipoise.app.bench.step_notes import noting
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.model.bench import Bench
 from equipoise.model.step import Step

@@ -20,7 +20,7 @@ from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.transport.driver_protocol import driver_named
 from equipoise.hardware.transport.reconnecting_port import Connection, Opener
-from equipoise.io.mcap.foxglove_server import ADDRESS, LiveView
+from equipoise.io.mcap.foxglove_server import ADDRESS, LAYOUT, LiveView
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.errors import EquipoiseError
@@ -124,6 +124,7 @@ def real_bench(wanted: Wanted, let_go: Callable[[], None] | None = None) -> Gene
         bench.watch()
         if wanted.live:
             stderr().print(f"Foxglove WebSocket: {ADDRESS}", markup=False)
+            stderr().print(f"Foxglove layout to import: {LAYOUT}", markup=False)
         yield bench
         for each in bench.health():
             stderr().print(each.sentence, style="red" if each.wrong else None, markup=False)

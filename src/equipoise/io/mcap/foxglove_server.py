@@ -7,6 +7,7 @@ cannot move anything.
 
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
+from pathlib import Path
 from typing import Any
 
 from equipoise.io.formats.optional_libraries import log_library
@@ -18,6 +19,7 @@ from equipoise.model.testbed import Testbed
 LOOPBACK = "127.0.0.1"
 PORT = 8765  # the protocol's customary port
 ADDRESS = f"ws://{LOOPBACK}:{PORT}"
+LAYOUT = Path(__file__).with_name("foxglove_layout.json")  # panels for these topics, to import
 
 
 class _Newcomers:
@@ -29,6 +31,9 @@ class _Newcomers:
     def on_subscribe(self, client: Any, channel: Any) -> None:
         """Note it; the scene is sent by who has the bench."""
         self.there |= channel.topic == SCENE_TOPIC
+
+    def on_unsubscribe(self, client: Any, channel: Any) -> None:
+        """Do nothing: who leaves needs nothing."""
 
 
 class LiveView(AbstractContextManager["LiveView"]):
