@@ -46,13 +46,14 @@ def steady(_rng):
 
 
 def busy(rng):
-    """Draw the turns of one whose cores are all at work: some ms, now and then a third of a s."""
-    hung = rng.uniform(0, 0.3) if rng.random() < 0.01 else 0.0
+    """Draw the turns of one whose cores are all at work: some ms, now and then a tenth of a s."""
+    hung = rng.uniform(0, 0.1) if rng.random() < 0.01 else 0.0
     return float(0.001 + rng.exponential(0.008) + hung)
 
 
 # s: latency of a radio bridge; a module of one request at a time takes five times as long with it
 LATENCY = {"grbl": 0.25, "tmcl": 0.04}
+TWICE = {"grbl": 0.01, "tmcl": 0.0}  # of what a board says; datagrams are no lines
 LINES = {"steady": (steady, 0.0), "busy": (busy, 0.1), "nasty": (busy, 1.0)}
 
 
@@ -60,7 +61,10 @@ def soak(kind, how, seed):
     """Return a board behind a line of a kind, and a host that looks when it can."""
     turn, slack = LINES[how]
     line = partial(NastyLine, latency=LATENCY[kind]) if how == "nasty" else PlainLine
-    return Soak(kind, seed, turn, line, slack)
+    found = Soak(kind, seed, turn, line, slack)
+    if how == "nasty":
+        found.back = line(found.rng, twice=TWICE[kind])
+    return found
 
 
 class Soak:

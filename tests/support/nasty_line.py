@@ -1,7 +1,8 @@
 """A line between a board and its driver that does what lines do, in either direction.
 
 Bytes keep their order. They are split anywhere, and come as late as they like; now and then nothing
-comes for a while, and then all of it.
+comes for a while, and then all of it. Where lines are the messages, one comes twice now and then,
+the second time behind others.
 """
 
 from collections import deque
@@ -12,12 +13,15 @@ import numpy as np
 class NastyLine:
     """One direction."""
 
-    def __init__(self, rng, latency=0.25, stall=0.4, stalls=0.002):
+    def __init__(self, rng, latency=0.25, stall=0.4, stalls=0.002, twice=0.0):
+        """Take how late bytes are (s), how long and how often none come, how often a line twice."""
         self._rng, self._latency, self._stall, self._stalls = rng, latency, stall, stalls
+        self._twice, self._lines, self._again = twice, b"", deque()
         self._under_way, self._free = deque(), 0.0
 
     def put(self, data, t):
         """Send bytes, in pieces."""
+        data = self._repeated(data)
         cuts = np.flatnonzero(self._rng.random(max(len(data) - 1, 0)) < 0.1) + 1
         for piece in np.split(np.frombuffer(data, np.uint8), cuts):
             late = self._rng.random() * self._latency
@@ -25,6 +29,16 @@ class NastyLine:
                 late += self._rng.random() * self._stall
             self._free = max(self._free, t + late)
             self._under_way.append((self._free, piece.tobytes()))
+
+    def _repeated(self, data):
+        """Put lines of before behind those that are complete now."""
+        *whole, self._lines = (self._lines + data).split(b"\n")
+        for line in whole:
+            if self._again and self._rng.random() < 0.3:
+                data += b"" if self._lines else self._again.popleft() + b"\n"
+            if self._rng.random() < self._twice:
+                self._again.append(line)
+        return data
 
     def arrived(self, t):
         """Return what has come."""

@@ -330,3 +330,28 @@ def test_a_report_queried_before_a_halt_says_nothing_of_it():
     wire.driver.feed(b"<Idle|MPos:-17.000,-17.000,-17.000|FS:0,0>\r\n", wire.t)
     assert wire.driver.due(wire.t + 1e-3) == b"\x85?"
     assert wire.driver.state.phase is Phase.HALTED
+
+
+def test_an_ok_too_many_ends_no_homing():
+    """A line came twice; masses are still on their way to their switches."""
+    wire = Wire("grbl", turn=QUICK).at_home()
+    wire.driver.go({"x": 10 * MM}, wire.t)
+    wire.run(3.0, until=Phase.READY)
+    wire.driver.home(wire.t)
+    wire.sent = b""
+    while b"$H\n" not in wire.sent:
+        wire.run(QUICK)
+    wire.driver.feed(b"ok\r\n<Idle|MPos:-7.000,-17.000,-17.000|FS:0,0>\r\n", wire.t)
+    assert wire.run(1.0).phase is Phase.HOMING
+    state = wire.run(40.0, until=Phase.READY)
+    assert (state.phase, state.sure) == (Phase.READY, True)
+    assert [wire.true(name) for name in "xyz"] == pytest.approx([0.0] * 3, abs=2e-6)
+
+
+def test_masses_that_stand_are_elsewhere_only_when_two_reports_say_so():
+    wire = Wire("grbl", turn=QUICK).at_home()
+    old = b"<Idle|MPos:-10.000,-17.000,-17.000|FS:0,0>\r\n"
+    wire.driver.feed(old, wire.t)
+    assert wire.driver.state.position["x"] == pytest.approx(0.0, abs=1e-9)
+    wire.driver.feed(old, wire.t)
+    assert wire.driver.state.position["x"] == pytest.approx(7 * MM)

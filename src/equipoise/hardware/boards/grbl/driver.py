@@ -20,12 +20,9 @@ from dataclasses import replace
 from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.boards.grbl.codes import IDLE_ERROR, alarm_text, error_text
 from equipoise.hardware.boards.grbl.halt import Halting, Wish
-from equipoise.hardware.boards.grbl.lateness import too_late
-from equipoise.hardware.boards.grbl.lines import (
-    displacements,
-    machine_position,
-    step_command,
-)
+from equipoise.hardware.boards.grbl.lateness import HOMING, too_late
+from equipoise.hardware.boards.grbl.lines import step_command
+from equipoise.hardware.boards.grbl.place import Place
 from equipoise.hardware.boards.grbl.report import (
     Code,
     Greeting,
@@ -74,12 +71,11 @@ class Grbl(BoardDriver):
 
     def _begin(self) -> None:
         self._settings: dict[int, float] = {}
-        self._offset: tuple[float, ...] | None = None
+        self._place = Place()
         self._route = Route(self._speed)
         self._halt = Halting(None)
         self._held: dict[str, float] = {}  # m, where masses stood before a reset
         self._changed = float("-inf")  # s, of the last thing that only later reports show
-        self._still = float("-inf")  # s, since when positions are the same
         self._since = self._talk.clock.now  # s, attended, when what it is waited for began
         self._nudged = False
         self._first_idle = float("inf")  # s, bench time: reported so with a line under way
@@ -192,7 +188,7 @@ class Grbl(BoardDriver):
     def _alarming(self) -> bool:
         """Say whether an alarm is news: not that of a reset, nor of a board that must home."""
         pending = self._talk.queue.pending
-        homes = pending is not None and pending.purpose is Step.HOME
+        homes = pending is not None and pending.purpose in HOMING
         return self.state.sure or bool(self.state.goal) or homes
 
     def _taken(self, t: float) -> None:
@@ -200,6 +196,8 @@ class Grbl(BoardDriver):
         step = self._answered(t)
         if step is Step.LEG and self.state.phase is Phase.HALTED:
             self._talk.urge(CANCEL)  # it may have been taken after the first
+        if step is Step.HOME:  # a board that still homes answers no line: an ok too many is found
+            self._talk.queue.put([step_command(Step.HOMED, longest_homing(self._settings))])
         if step is not Step.SETTINGS:
             return
         wrong = disagreement(self._board, self._masses, self._settings)
@@ -218,23 +216,18 @@ class Grbl(BoardDriver):
         if command is None:
             return None
         self._wait_from(t)
-        if command.purpose is Step.HOME:
+        if command.purpose in HOMING:
             self._talk.void_queries()  # it may have heard no question meanwhile
         return command.purpose
 
     def _placed(self, status: Status) -> None:
-        """Take over where masses are; a line that lost a part is none: Grbl says every axis."""
-        self._offset = status.offset or self._offset
-        machine, arrived = machine_position(status, self._offset), self._talk.arrived
-        if machine is None:
-            return
-        position = displacements(self._axes, machine)
-        if position is None:
+        """Take over where masses are."""
+        standing = self.state.phase is Phase.READY and self.state.sure
+        arrived = self._talk.arrived
+        if not self._place.take(self._axes, status, arrived, standing):
             self.count(corrupt=1)
-            return
-        if position != self.state.position:
-            self._still = arrived
-        self.state = replace(self.state, position=position, reported=arrived)
+        elif self._place.at:
+            self.state = replace(self.state, position=self._place.at, reported=arrived)
 
     # --- What it means -----------------------------------------------------------------------
 
@@ -309,7 +302,7 @@ class Grbl(BoardDriver):
             abs(position[axis.mass] - goal[axis.mass]) <= DIGIT + 0.5 / axis.steps_per_m
             for axis in self._axes
         )
-        if there or self._talk.arrived - max(self._still, self._changed) > SETTLED:
+        if there or self._talk.arrived - max(self._place.still, self._changed) > SETTLED:
             self.state = replace(self.state, phase=Phase.READY, sure=True)
 
     # --- What is sent ------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from equipoise.hardware.transport.driver_protocol import SILENCE, Phase
 from equipoise.model.reasons.board_faults import BoardFault
 from equipoise.model.reasons.reason import Reason
 
+HOMING = (Step.HOME, Step.HOMED)
 PATIENCE = 5.0  # s, chosen: for a state to become what it must be
 
 
@@ -30,7 +31,7 @@ def too_late(talk: GrblTalk, phase: Phase, since: float) -> Late | None:
     if talk.awaiting:
         return _not_begun(talk, phase) if talk.reset_waited > BEGIN else None
     pending = talk.queue.pending
-    homes = pending is not None and pending.purpose is Step.HOME  # it may answer nothing then
+    homes = pending is not None and pending.purpose in HOMING  # it may answer nothing then
     if pending is not None and talk.queue.overdue and (homes or talk.reported_since_due):
         return _unanswered(talk, pending.purpose)
     if talk.question_waited > SILENCE and not homes:
@@ -54,7 +55,7 @@ def _not_begun(talk: GrblTalk, phase: Phase) -> Late:
 
 def _unanswered(talk: GrblTalk, step: Step) -> Late:
     waited = talk.queue.waited
-    if step is Step.HOME:
+    if step in HOMING:
         return Late(_observed(talk, BoardFault.HOMING_LONG, waited), lost=True)
     return Late(_observed(talk, BoardFault.UNANSWERED, waited, step), lost=False)
 

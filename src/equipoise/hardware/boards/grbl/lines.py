@@ -12,7 +12,13 @@ from equipoise.model.units import MINUTE, MM, in_si
 
 SLOWEST = 1.0  # mm/min, chosen: a feed of nothing is refused
 PATIENCE = 1.5  # s, chosen: for a line; it waits while the board prints or a jog ends
-TEXTS = {Step.SETTINGS: b"$$\n", Step.HOME: b"$H\n", Step.UNLOCK: b"$X\n", Step.SYNC: b"\n"}
+TEXTS = {
+    Step.SETTINGS: b"$$\n",
+    Step.HOME: b"$H\n",
+    Step.HOMED: b"\n",
+    Step.UNLOCK: b"$X\n",
+    Step.SYNC: b"\n",
+}
 
 
 def step_command(step: Step, patience: float = PATIENCE) -> Command[Step]:

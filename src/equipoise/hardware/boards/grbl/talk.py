@@ -35,6 +35,7 @@ class Step(StrEnum):
 
     SETTINGS = "its settings ($$)"
     HOME = "homing ($H)"
+    HOMED = "an empty line after homing"
     UNLOCK = "unlocking ($X)"
     LEG = "a jog ($J)"
     SYNC = "an empty line"
