@@ -13,8 +13,12 @@ from tests.support import thorough
 settings.register_profile("house", deadline=None, max_examples=thorough.count(100, 20))
 settings.load_profile("house")
 
-# A shell that runs the tests in the background lets Ctrl-C be ignored, by all that they start too.
+# A shell that runs the tests in the background, or under nohup, lets signals to stop be ignored, by
+# all that they start too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+for name in ("SIGTERM", "SIGHUP"):
+    if hasattr(signal, name):
+        signal.signal(getattr(signal, name), signal.SIG_DFL)
 
 # Shapes and types are checked by the tests of the rooms that are decorated for it (pyproject.toml)
 # and of the front door; in runs of other rooms' tests the checks are up to half of the time.
