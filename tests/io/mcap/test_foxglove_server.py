@@ -1,16 +1,20 @@
 """Whoever connects sees the rows of the bench, and cannot do anything to it."""
 
+import base64
 import json
 import struct
 import time
+from contextlib import suppress
 
 import numpy as np
 import pytest
 from websockets.sync.client import connect
 
 from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
+from tests.support.protobuf_by_schema import decoded
 
 PROTOCOL = "foxglove.sdk.v1"
 ZERO = 1_750_000_000_000_000_000
@@ -48,8 +52,58 @@ def test_a_client_receives_rows_with_their_times():
                 observed = message if isinstance(message, bytes) and message[0] == 1 else b""
     kind, subscription, ns = struct.unpack_from("<BIQ", observed)
     assert (kind, subscription, ns) == (1, 7, ZERO + 250_000_000)
-    stamp = {"timestamp": {"sec": ZERO // 10**9, "nsec": ZERO % 10**9 + 250_000_000}}
-    assert json.loads(observed[13:]) == {**stamp, "x_rad_s": 0.1, "y_rad_s": 0.0, "z_rad_s": -2.0}
+    assert json.loads(observed[13:]) == {
+        "timestamp": {"sec": ZERO // 10**9, "nsec": 250_000_000},
+        "x_rad_s": 0.1, "y_rad_s": 0.0, "z_rad_s": -2.0,
+    }  # fmt: skip
+
+
+def offered_by(client, *wanted):
+    """Return the channels that are advertised, once the wanted ones are."""
+    offered = {}
+    while not set(wanted) <= offered.keys():
+        reported = json.loads(client.recv(PATIENCE))
+        offered |= {c["topic"]: c for c in reported.get("channels", [])}
+    return offered
+
+
+def test_every_topic_of_a_bench_is_offered_before_its_first_row():
+    """Attitude, rate and masses of the testbed, by name; events, log and scene of any."""
+    bed = read_preset("nanosat")
+    with (
+        LiveView(ZERO, bed, port=0) as view,
+        connect(view.address, subprotocols=[PROTOCOL]) as client,
+    ):
+        topics = ("/attitude", "/rate", "/masses", "/events", "/log", "/scene")
+        offered = offered_by(client, *topics)
+    assert offered["/scene"]["schemaName"] == "foxglove.SceneUpdate"
+    parts = json.loads(offered["/masses"]["schema"])["properties"]
+    assert parts.keys() == {"timestamp", "x_m", "y_m", "z_m"}
+
+
+def test_who_comes_late_is_shown_the_scene():
+    """It was sent before anybody was there, and nothing has changed since."""
+    with LiveView(ZERO, read_preset("nanosat"), port=0) as view:
+        view.rows(rows(0.0))
+        with connect(view.address, subprotocols=[PROTOCOL]) as client:
+            scene = offered_by(client, "/scene")["/scene"]
+            wanted = {"id": 3, "channelId": scene["id"]}
+            client.send(json.dumps({"op": "subscribe", "subscriptions": [wanted]}))
+            until = time.monotonic() + PATIENCE
+            shown = []
+            while not shown and time.monotonic() < until:
+                view.turn(2.5)
+                with suppress(TimeoutError):
+                    message = client.recv(0.02)
+                    shown += [message] if isinstance(message, bytes) and message[0] == 1 else []
+            for k in range(20):  # and is not shown it over and over
+                view.turn(2.5 + k)
+            with pytest.raises(TimeoutError):
+                client.recv(0.2)
+    assert struct.unpack_from("<BIQ", shown[0]) == (1, 3, ZERO + 2_500_000_000)
+    update = decoded(base64.b64decode(scene["schema"]), "foxglove.SceneUpdate", shown[0][13:])
+    names = {entity["id"] for entity in update["entities"]}
+    assert names == {"platform", "masses", "centre of mass", "gravity"}
 
 
 def test_it_listens_on_this_computer_alone():

@@ -9,6 +9,7 @@ import functools
 import io
 import struct
 import tempfile
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -149,6 +150,13 @@ def test_the_summary_says_what_there_is():
     assert counts == {t: sum(each[0] == t for each in wanted()) for t in TOPICS}
 
 
+def test_the_checksum_of_the_summary_is_right():
+    """Of all from the summary's beginning to the checksum itself (spec: Footer)."""
+    content = recorded()[0]
+    start, _, stated = struct.unpack("<QQI", content[-28:-8])
+    assert stated == zlib.crc32(content[start:-12]) != 0
+
+
 def cuts():
     """Return places of a cut: where, and how many chunks are whole before it."""
     content, sizes = recorded()
@@ -169,7 +177,7 @@ def test_a_cut_record_gives_every_message_before_the_cut(read):
         assert [each for each in found if each not in wanted()] == [], size
 
 
-def test_no_indexed_reader_finds_a_cut_record_empty():
+def test_an_indexed_reader_never_takes_a_cut_record_for_an_empty_one():
     """A file without its end has no summary: mcap's reader says so, others go through the file."""
     content, _ = recorded()
     for size, _ in cuts():

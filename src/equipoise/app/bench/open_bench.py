@@ -123,8 +123,7 @@ def real_bench(wanted: Wanted, let_go: Callable[[], None] | None = None) -> Gene
             bench.read(HAND)
         bench.watch()
         if wanted.live:
-            stderr().print(f"Foxglove WebSocket: {ADDRESS}", markup=False)
-            stderr().print(f"Foxglove layout to import: {LAYOUT}", markup=False)
+            stderr().print(f"Foxglove WebSocket: {ADDRESS}; layout: {LAYOUT}", markup=False)
         yield bench
         for each in bench.health():
             stderr().print(each.sentence, style="red" if each.wrong else None, markup=False)

@@ -46,10 +46,10 @@ def replay(
     with ExitStack() as stack:
         onlookers: list[Onlooker] = [stack.enter_context(shown_lines(bed))]
         if foxglove:
-            from equipoise.io.mcap.foxglove_server import LiveView
+            from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView
 
             view = stack.enter_context(LiveView(zero_ns, bed))
-            stdout().print(f"Foxglove WebSocket: {view.address}", markup=False)
+            stdout().print(f"Foxglove WebSocket: {view.address}; layout: {LAYOUT}", markup=False)
             onlookers.append(view.rows)
         replayed(bed, recording, pace, onlookers)
     return 0
