@@ -355,3 +355,38 @@ def test_masses_that_stand_are_elsewhere_only_when_two_reports_say_so():
     assert wire.driver.state.position["x"] == pytest.approx(0.0, abs=1e-9)
     wire.driver.feed(old, wire.t)
     assert wire.driver.state.position["x"] == pytest.approx(7 * MM)
+
+
+def test_a_refused_line_is_a_fault_with_its_number_and_what_was_refused():
+    """A leg that leaves the travel moves nothing: the position stays known."""
+    wire = Wire("grbl").at_home()
+    wire.remote.board.settings[130] = 18.0
+    wire.driver.go({"x": -8 * MM}, wire.t)
+    state = wire.run(3.0, until=Phase.FAULT)
+    assert (state.fault.code, state.sure) == (BoardFault.REFUSED, True)
+    assert "(error:15 to a jog ($J))" in state.sentence
+
+
+def test_an_alarm_is_called_by_its_whole_number():
+    wire = Wire("grbl").at_home()
+    wire.driver.go({"x": 14 * MM}, wire.t)
+    wire.run(0.3)
+    wire.remote.hit_limit()
+    assert "(ALARM:1)" in wire.run(1.0, until=Phase.FAULT).sentence
+
+
+def test_a_port_at_which_nothing_answers_is_reset_no_more_once_that_is_a_fault():
+    """It may be that of another device."""
+    talk = Talk(Dialect("", ""))
+    talk.dialect.answers = lambda _data: b""
+    sent, due = [], talk.driver.due
+
+    def said(t):
+        sent.append((t, due(t)))
+        return sent[-1][1]
+
+    talk.driver.due = said
+    talk.run(12.0)
+    resets = [t for t, data in sent if b"\x18" in data]
+    assert len(resets) >= 2
+    assert max(resets) < 4.5

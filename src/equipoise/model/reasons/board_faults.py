@@ -44,7 +44,7 @@ class BoardFault(Code):
         "it has not begun anew {waited:.1f} s after a reset; the last line received is {0}, "
         "{ago:.1f} s ago; switch it off and on, then home again",
     )
-    ALARM = "board_alarm", "{0} (ALARM:{number}); home again"
+    ALARM = "board_alarm", "{0} (ALARM:{number:.0f}); home again"
     REFUSED = "board_refused", "{0}; home again"
     LOCKED = "board_state", "it is in state {0}: {1}; home again"
     NOT_STOPPED = (

@@ -179,10 +179,8 @@ class Grbl(BoardDriver):
         if refused is Step.LEG and code.number == IDLE_ERROR:
             self._route.refused = True
         elif refused is not None and not (refused is Step.LEG and self.state.phase is Phase.HALTED):
-            text = f"error:{code.number} to {refused}"
-            self._fault(
-                BoardFault.REFUSED, error_text(code.number), text, lost=refused is not Step.LEG
-            )
+            text = f"{error_text(code.number)} (error:{code.number} to {refused})"
+            self._fault(BoardFault.REFUSED, text, lost=refused is not Step.LEG)
 
     @property
     def _alarming(self) -> bool:

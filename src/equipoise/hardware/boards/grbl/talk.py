@@ -97,7 +97,7 @@ class GrblTalk:
     def due(self, t: float, pause: float) -> bytes:
         """Return what to send; questions are ``pause`` apart, s."""
         said, self._urgent = self._urgent, b""
-        if self.clock.now - self._tried > TRY and self.reset_waited > 0:
+        if 0 < self.reset_waited <= BEGIN and self.clock.now - self._tried > TRY:
             self._tried = self.clock.now
             said += RESET
         said += self._question(t, pause)
