@@ -48,7 +48,7 @@ def test_a_conversation_is_printed_as_it_happens_in_both_directions():
     lines = []
     with living(WITHOUT_SENSOR) as there:
         bed = there.testbed()
-        opener = Conversations(hardware_of(bed), lines.append).opener
+        opener = Conversations(hardware_of(bed), lines.append).open
         list(checked_bench(bed, 2.0, lambda question: "home" in question, opener))
     said = "\n".join(lines)
     wanted = (

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 from equipoise.app.arguments import checks
 from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
-from equipoise.app.bench.step_notes import noting
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.model.bench import Bench
 from equipoise.model.step import Step
@@ -72,4 +71,4 @@ def balance(
     if plan is not None:
         limits = replace(limits, plan=plan_from(plan, bed).manoeuvre)
     bench = platform if own else bench_for(bed, limits.plan, checks.seed_of(seed))
-    return run(bench, goal, limits, noting(bench, on_step))
+    return run(bench, goal, limits, on_step)

@@ -8,7 +8,6 @@ from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.boards.registry import EXPLAINED
 from equipoise.hardware.transport.explained_bytes import Explained, PlainBytes
 from equipoise.hardware.transport.port import Port
-from equipoise.hardware.transport.reconnecting_port import Opener
 from equipoise.hardware.transport.tapped_port import TappedPort
 from equipoise.model.hardware import Hardware
 from equipoise.model.hardware import Port as Address
@@ -38,12 +37,8 @@ class Conversations:
         self._last: dict[tuple[str, str], Said] = {}
         self._print, self._clock = print_line, WallClock()
 
-    @property
-    def opener(self) -> Opener:
-        """Return what opens ports that are listened to."""
-        return self._opened
-
-    def _opened(self, address: Address) -> Port:
+    def open(self, address: Address) -> Port:
+        """Return the port at an address, open, and listened to."""
         port = open_port(address)
         self._say(address.address, "--", "the port is open")
         words = self._words[address.address]

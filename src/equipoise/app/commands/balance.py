@@ -110,7 +110,6 @@ def _run(
 ) -> "Balancing":
     """Balance the simulated platform, or the real one, and show each step."""
     with busy("preparing the bench", announce=False):
-        from equipoise.app.bench.step_notes import noting
         from equipoise.app.runs.balancing import run
         from equipoise.app.runs.terminal_waiting import at_terminal, show_step
         from equipoise.simulation.carried_out import bench_for
@@ -119,8 +118,7 @@ def _run(
     if simulated is None:
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if simulated is None else nullcontext(simulated) as bench:
-        on_step = noting(bench, show_step if show else None)
-        return run(bench, goal, limits, on_step, at_terminal(bed))
+        return run(bench, goal, limits, show_step if show else None, at_terminal(bed))
 
 
 def _where(target_um: Triple, tolerance_um: Triple) -> "tuple[Vector3, Vector3]":

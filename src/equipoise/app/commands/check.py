@@ -40,7 +40,7 @@ def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
     bed = testbed_from(testbed)
     reported: list[CheckResult] = []
     with busy("talking to the devices", announce=False):
-        opener = Conversations(hardware_of(bed), print_line).opener if explain else open_port
+        opener = Conversations(hardware_of(bed), print_line).open if explain else open_port
         steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else agreed, opener)
         for line in steps:
             show(items((line.sentence,), "good" if line.good else "bad"))

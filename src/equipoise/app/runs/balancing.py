@@ -7,6 +7,7 @@ from signal import SIGINT
 import numpy as np
 
 from equipoise.app.bench.bench_proxy import RecordedBench
+from equipoise.app.bench.step_notes import noting
 from equipoise.app.console.stop_request import cause_of, exit_code_of, number_of
 from equipoise.app.figures.balancing.balanced_com import Marked
 from equipoise.app.runs.waiting import as_they_come, shown
@@ -119,6 +120,7 @@ def run(
     """
     simulated = bench if isinstance(bench, SimulatedBench) else None
     before = None if simulated is None else simulated.truth()
+    on_step = noting(bench, on_step)
     recorded = RecordedBench(through.observe(bench))
     steps: list[Step] = []
     truths: list[MassProperties] = []

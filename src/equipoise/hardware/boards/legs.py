@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from equipoise.hardware.transport.driver_protocol import LEG
 
+SLOWING = 0.1  # s, chosen: a mass that takes longer to stop is beyond its leg when it must halt
 HAIR = 1e-7  # m, chosen: a way shorter than any step is none
 
 

@@ -9,7 +9,7 @@ from equipoise.hardware.camera.tag_board import TagBoard
 def board_print(board: TagBoard, dpi: int) -> aruco.Picture:
     """Return a board of markers turned by quarters, at so many dots per inch."""
     left, bottom, right, top = board.extent
-    margin = board.paper * (2 if board.squares else 1)  # squares stand outside of the markers
+    margin = board.margin
     size = (top - bottom + 2 * margin, right - left + 2 * margin)
     paper = np.full(tuple(aruco.dots(each, dpi) for each in size), 255, np.uint8)
     markers = aruco.dictionary(board.dictionary, "print-board")

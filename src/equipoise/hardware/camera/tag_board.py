@@ -76,6 +76,11 @@ class TagBoard:
         return min(LEAST, len(self.markers))
 
     @property
+    def margin(self) -> float:
+        """How much paper a print has around the markers, m; squares stand outside of them."""
+        return self.paper * (2 if self.squares else 1)
+
+    @property
     def extent(self) -> tuple[float, float, float, float]:
         """Left, bottom, right and top of all markers, m."""
         corners = np.concatenate([marker.corners for marker in self.markers])

@@ -33,7 +33,7 @@ def sheet_of(board: TagBoard, scale: float) -> Sheet:
     if any(marker.z != 0 for marker in board.markers):
         raise InputError("emulated camera", "tags at several heights", "z_mm = 0: it draws a sheet")
     left, bottom, right, top = board.extent
-    margin = board.paper if not board.squares else 2 * board.paper
+    margin = board.margin
     corner = np.array([left - margin, top + margin])
     shape = [int(np.ceil(scale * (size + 2 * margin))) for size in (top - bottom, right - left)]
     ink = np.zeros(shape)

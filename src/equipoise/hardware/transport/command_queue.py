@@ -46,6 +46,11 @@ class CommandQueue(Generic[Purpose]):
         """Await no answer any more: the device was reset, or has not answered in time."""
         self.pending = None
 
+    def clear(self) -> None:
+        """Say nothing and await nothing any more."""
+        self.drop()
+        self.cut()
+
     def following(self) -> bytes:
         """Return the next command to send; nothing while an answer is due."""
         if self.pending is not None or not self._waiting:

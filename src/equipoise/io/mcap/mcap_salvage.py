@@ -29,6 +29,7 @@ KINDS = dict(
         start=1,
     )
 )  # fmt: skip
+CODES = {kind: code for code, kind in KINDS.items()}
 
 
 @dataclass(slots=True)

@@ -12,9 +12,8 @@ from itertools import groupby
 from pathlib import Path
 from typing import BinaryIO
 
-from equipoise.io.mcap.mcap_salvage import HEAD, KINDS, MAGIC
+from equipoise.io.mcap.mcap_salvage import CODES, HEAD, KINDS, MAGIC
 
-CODES = {kind: code for code, kind in KINDS.items()}
 BLOCK = 65536  # bytes that are read, and written, at once (chosen)
 CHUNK_FIELDS = struct.Struct("<QQQII")  # first time, last time, size, checksum, length of a name
 

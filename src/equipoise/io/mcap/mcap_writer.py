@@ -17,11 +17,10 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.mcap.mcap_salvage import KINDS, MAGIC
+from equipoise.io.mcap.mcap_salvage import CODES, MAGIC
 from equipoise.io.mcap.mcap_summary import write_summary
 from equipoise.model.version import __version__
 
-CODES = {kind: code for code, kind in KINDS.items()}
 LARGEST = 1_000_000  # bytes of a chunk's messages, beyond which it is written (chosen)
 MESSAGE = struct.Struct("<BQHIQQ")  # opcode, length, channel, number, log time, publish time
 FIELDS = MESSAGE.size - 9  # bytes of a message's content in front of its data

@@ -20,9 +20,9 @@ from dataclasses import replace
 from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.boards.grbl.codes import IDLE_ERROR, alarm_text, error_text
 from equipoise.hardware.boards.grbl.halt import Halting, Wish
-from equipoise.hardware.boards.grbl.lateness import HOMING, too_late
+from equipoise.hardware.boards.grbl.lateness import too_late
 from equipoise.hardware.boards.grbl.lines import step_command
-from equipoise.hardware.boards.grbl.place import Place
+from equipoise.hardware.boards.grbl.place import DIGIT, Place
 from equipoise.hardware.boards.grbl.report import (
     Code,
     Greeting,
@@ -40,7 +40,8 @@ from equipoise.hardware.boards.grbl.settings import (
     longest_homing,
 )
 from equipoise.hardware.boards.grbl.states import LOST, POLLS, QUIET, TAKES_LEGS, WAYS_OUT
-from equipoise.hardware.boards.grbl.talk import CANCEL, HOLD, RESUME, GrblTalk, Step
+from equipoise.hardware.boards.grbl.suspension import Suspension
+from equipoise.hardware.boards.grbl.talk import CANCEL, HOLD, HOMING, RESUME, GrblTalk, Step
 from equipoise.hardware.transport.driver_protocol import (
     POLL,
     BoardDriver,
@@ -52,9 +53,7 @@ from equipoise.model.reasons.board_faults import BoardFault
 from equipoise.model.reasons.reason import Number, Reason
 from equipoise.model.testbed import SlidingMass
 
-DIGIT = 1e-6  # m: positions are reported to 1 um
 SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
-NUDGE = 0.1  # s, chosen: a board takes a line within some ms; printing its settings takes 55
 
 
 class Grbl(BoardDriver):
@@ -74,11 +73,10 @@ class Grbl(BoardDriver):
         self._place = Place()
         self._route = Route(self._speed)
         self._halt = Halting(None)
-        self._held: dict[str, float] = {}  # m, where masses stood before a reset
         self._changed = float("-inf")  # s, of the last thing that only later reports show
         self._since = self._talk.clock.now  # s, attended, when what it is waited for began
         self._nudged = False
-        self._first_idle = float("inf")  # s, bench time: reported so with a line under way
+        self._suspension = Suspension()
 
     def opened(self, t: float) -> None:
         """Begin anew, with a reset."""
@@ -153,8 +151,7 @@ class Grbl(BoardDriver):
         if greeting.old and phase is not Phase.FAULT:
             self._fault(BoardFault.OUTDATED, f"'{greeting.text}'", lost=True)
         elif phase is Phase.CONNECTING or (phase is Phase.READY and not self.state.sure):
-            self._talk.queue.drop()  # opening a port may reset it twice
-            self._talk.queue.cut()
+            self._talk.queue.clear()  # opening a port may reset it twice
             self._request_settings()
             self.state = BoardState(Phase.CONNECTING, reported=t)
         elif self._talk.expected:
@@ -185,9 +182,7 @@ class Grbl(BoardDriver):
     @property
     def _alarming(self) -> bool:
         """Say whether an alarm is news: not that of a reset, nor of a board that must home."""
-        pending = self._talk.queue.pending
-        homes = pending is not None and pending.purpose in HOMING
-        return self.state.sure or bool(self.state.goal) or homes
+        return self.state.sure or bool(self.state.goal) or self._talk.homing
 
     def _taken(self, t: float) -> None:
         """Note that the line under way was taken."""
@@ -246,7 +241,7 @@ class Grbl(BoardDriver):
             self._arrived()
 
     def _slow_down(self, status: Status, t: float) -> None:
-        moved = self._moved_by_reset()
+        moved = self._place.moved_by_reset()
         if moved is not None:
             name, before, now = moved
             self._fault(BoardFault.MOVED, name, lost=True, before=before, now=now)
@@ -266,14 +261,8 @@ class Grbl(BoardDriver):
 
     def _reset_standing(self) -> None:
         """Reset a board that stands: what it holds is thrown away, its position is kept."""
-        self._held = dict(self.state.position)
+        self._place.hold()
         self._talk.reset()
-
-    def _moved_by_reset(self) -> tuple[str, float, float] | None:
-        """Return the first mass that a reset has moved, and from where to where (m)."""
-        held, self._held = self._held, {}
-        moved = ((k, at, self.state.position[k]) for k, at in held.items())
-        return next((each for each in moved if abs(each[1] - each[2]) > 2 * DIGIT), None)
 
     def _found(self, status: Status) -> None:
         """Begin the way to displacement zero once the board says where it is after homing."""
@@ -336,22 +325,8 @@ class Grbl(BoardDriver):
             self._stop(late.fault, late.lost)
             if late.reset:
                 self._talk.reset()
-        elif self._suspended() and not self._nudged:
+        elif self._suspension.there(self._talk) and not self._nudged:
             self._nudge()
-
-    def _suspended(self) -> bool:
-        """Say whether it says Idle twice while a line that it has is not answered.
-
-        Bytes keep their order: what is asked after the line is behind it there, and the report of
-        that would be behind the answer here.
-        """
-        talk, status = self._talk, self._talk.status
-        waiting = talk.queue.pending is not None and talk.queried > talk.line_sent
-        if not waiting or status is None or status.state is not MachineState.IDLE:
-            self._first_idle = float("inf")
-        else:
-            self._first_idle = min(self._first_idle, talk.arrived)
-        return talk.queried > self._first_idle + NUDGE
 
     def _nudge(self) -> None:
         """Free it; after a halt by a reset, since a line of before would be carried out else."""

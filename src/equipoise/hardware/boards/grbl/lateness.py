@@ -6,12 +6,11 @@ All times are attended: what nobody listened to is not late.
 from dataclasses import dataclass
 
 from equipoise.hardware.boards.grbl.report import MachineState
-from equipoise.hardware.boards.grbl.talk import BEGIN, GrblTalk, Step
+from equipoise.hardware.boards.grbl.talk import BEGIN, HOMING, GrblTalk, Step
 from equipoise.hardware.transport.driver_protocol import SILENCE, Phase
 from equipoise.model.reasons.board_faults import BoardFault
 from equipoise.model.reasons.reason import Reason
 
-HOMING = (Step.HOME, Step.HOMED)
 PATIENCE = 5.0  # s, chosen: for a state to become what it must be
 
 
@@ -31,10 +30,9 @@ def too_late(talk: GrblTalk, phase: Phase, since: float) -> Late | None:
     if talk.awaiting:
         return _not_begun(talk, phase) if talk.reset_waited > BEGIN else None
     pending = talk.queue.pending
-    homes = pending is not None and pending.purpose in HOMING  # it may answer nothing then
-    if pending is not None and talk.queue.overdue and (homes or talk.reported_since_due):
+    if pending is not None and talk.queue.overdue and (talk.homing or talk.reported_since_due):
         return _unanswered(talk, pending.purpose)
-    if talk.question_waited > SILENCE and not homes:
+    if talk.question_waited > SILENCE and not talk.homing:
         code, query = BoardFault.SILENT, "its state (?)"
         return Late(_observed(talk, code, talk.question_waited, query), lost=True)
     if phase in (Phase.CONNECTING, Phase.READY) or pending is not None:

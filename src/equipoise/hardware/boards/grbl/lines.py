@@ -1,14 +1,12 @@
-"""The lines that a Grbl board is sent, and the displacements that its reports mean."""
+"""The lines that a Grbl board is sent."""
 
 from collections.abc import Mapping, Sequence
 
-from equipoise.hardware.boards.grbl.report import Status
-from equipoise.hardware.boards.grbl.settings import LETTERS
 from equipoise.hardware.boards.grbl.talk import Step
 from equipoise.hardware.boards.legs import Way
 from equipoise.hardware.transport.command_queue import Command
 from equipoise.model.hardware import Axis
-from equipoise.model.units import MINUTE, MM, in_si
+from equipoise.model.units import MINUTE, MM
 
 SLOWEST = 1.0  # mm/min, chosen: a feed of nothing is refused
 PATIENCE = 1.5  # s, chosen: for a line; it waits while the board prints or a jog ends
@@ -35,18 +33,3 @@ def jog(axes: Sequence[Axis], begin: Mapping[str, float], way: Way) -> Command[S
             square += ((way.to[axis.mass] - begin[axis.mass]) / MM) ** 2
     feed = max(square**0.5 / way.duration * MINUTE, SLOWEST)
     return Command(f"$J=G53 G21 G90{words} F{feed:.2f}\n".encode(), Step.LEG, PATIENCE)
-
-
-def machine_position(status: Status, offset: Sequence[float] | None) -> tuple[float, ...] | None:
-    """Return where the machine is, mm; None while that is not known: work = machine - offset."""
-    if status.machine is not None or status.work is None or offset is None:
-        return status.machine
-    return tuple(a + b for a, b in zip(status.work, offset, strict=False))
-
-
-def displacements(axes: Sequence[Axis], machine: Sequence[float]) -> dict[str, float] | None:
-    """Return displacements (m) at a position of the machine (mm); None if it lacks an axis."""
-    columns = {axis: LETTERS.index(axis.letter) for axis in axes}
-    if max(columns.values()) >= len(machine):
-        return None
-    return {axis.mass: axis.displacement(in_si(machine[k], MM)) for axis, k in columns.items()}

@@ -10,6 +10,7 @@ Source: Grbl 1.1 wiki, "Configuration". Axes are numbered X Y Z A B C.
 
 from collections.abc import Mapping, Sequence
 
+from equipoise.hardware.boards.legs import SLOWING
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.reasons.board_faults import BoardRemark
 from equipoise.model.reasons.reason import Reason
@@ -18,7 +19,6 @@ from equipoise.model.units import MINUTE, MM
 
 LETTERS = "XYZABC"
 NEAR = 1e-3  # relative, chosen: settings are printed to three decimals
-SLOWING = 0.1  # s, chosen: a mass that takes longer to stop is beyond its leg when it must halt
 SEARCH = 1.5  # of the travel that homing searches, Grbl's own factor
 LOCATE = 5.0  # of the pull-off that homing seeks a switch anew, Grbl's own factor
 MARGIN = 10.0  # s, chosen: ramps and whatever else settings do not show

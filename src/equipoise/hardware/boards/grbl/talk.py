@@ -41,6 +41,9 @@ class Step(StrEnum):
     SYNC = "an empty line"
 
 
+HOMING = (Step.HOME, Step.HOMED)
+
+
 class GrblTalk:
     """See above; ``tally`` counts what arrives."""
 
@@ -114,6 +117,11 @@ class GrblTalk:
     def question_waited(self) -> float:
         """How long no report has come though one was asked for, s, attended."""
         return self.clock.now - self._quiet_since if self._open else 0.0
+
+    @property
+    def homing(self) -> bool:
+        """Say whether a line of homing is under way: the board may answer nothing else then."""
+        return self.queue.pending is not None and self.queue.pending.purpose in HOMING
 
     @property
     def reported_since_due(self) -> bool:

@@ -12,6 +12,7 @@ V1.01, 8.1; TMCM-3212 TMCL Firmware Manual V1.07, 6.5.
 
 from collections.abc import Mapping, Sequence
 
+from equipoise.hardware.boards.legs import SLOWING
 from equipoise.hardware.boards.tmcl import words as w
 from equipoise.hardware.boards.tmcl.talk import Answer
 from equipoise.hardware.boards.tmcl.words import Request, refusal
@@ -21,7 +22,6 @@ from equipoise.model.testbed import SlidingMass
 CLOCK = 16e6  # Hz
 GREATEST, MOST_DIVISOR = 2047, 13  # of a TMC429: speed and the powers of two that divide it
 NEAR = 0.01  # relative, chosen: of a speed, as a TMC429 has steps of it
-SLOWING = 0.1  # s, chosen: a mass that takes longer to stop is beyond its leg when it must halt
 WANTED = (w.AT, w.MICROSTEPS, w.MOST_ACCELERATION, w.RIGHT_OFF, w.LEFT_OFF)
 ONLY_SOME = (w.PULSE_DIVISOR, w.RAMP_DIVISOR, w.UNITS)
 

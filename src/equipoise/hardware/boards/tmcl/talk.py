@@ -64,8 +64,7 @@ class Talk:
 
     def give_up(self) -> None:
         """Await no answer any more, and say nothing."""
-        self.queue.drop()
-        self.queue.cut()
+        self.queue.clear()
 
     @property
     def refused(self) -> str:

@@ -105,21 +105,17 @@ class GrblMachine(ABC):
 
     def _advance(self, t: float) -> None:
         """Let everything happen that is due until t s, in order."""
-        while self.powered and (event := min(self._boots_at, self._free_at, self._ends_at)) <= t:
+        while self.powered and (event := min(self._boots_at, self._free_at, self.motion.end)) <= t:
             self._now = max(self._now, event)
             if event == self._boots_at:
                 self._boots_at, self._booted = float("inf"), True
                 self._greet()
-            elif event == self._ends_at:
+            elif event == self.motion.end:
                 self._motors_stand()
             else:
                 self._free_at = float("inf")
             self._main()
         self._now = max(self._now, t)
-
-    @property
-    def _ends_at(self) -> float:
-        return self.motion.end
 
     def _motors_stand(self) -> None:
         self.motion.ended()
