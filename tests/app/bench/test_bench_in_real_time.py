@@ -7,7 +7,6 @@ for so long that an interlock stops the masses, as it should; then the command i
 import json
 import signal
 import subprocess
-import sys
 import time
 
 import pytest
@@ -20,10 +19,10 @@ from tests.support.recorded_events import events_of
 
 pytest.importorskip("pty", reason="no pseudo terminals, no SIGINT")
 from tests.support import thorough
-from tests.support.pseudo_terminal import AtTerminal, screen, stripped
+from tests.support.emulating_program import emulating
+from tests.support.pseudo_terminal import PROGRAM, AtTerminal, screen, stripped
 
 TRIES, PATIENCE = 3, 120.0  # s
-PROGRAM = [sys.executable, "-m", "equipoise.app.cli"]
 LET_GO = "let the platform go"
 
 
@@ -31,12 +30,8 @@ LET_GO = "let the platform go"
 def bench(tmp_path_factory):
     """Return the folder with the testbed file of a bench that is there."""
     folder = tmp_path_factory.mktemp("bench")
-    words = [*PROGRAM, "emulate", "nanosat", "--out", "there.toml", "--max-time-s", "600"]
-    with subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, text=True) as there:
-        assert next(line for line in there.stdout if "wrote" in line)
+    with emulating(folder, "nanosat"):
         yield folder
-        there.send_signal(signal.SIGINT)
-        assert "the true centre of mass" in there.stdout.read()
 
 
 def begun(folder, *words):

@@ -7,8 +7,6 @@ command is tried again.
 
 import json
 import signal
-import subprocess
-import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -22,10 +20,10 @@ from equipoise.io.testbed.testbed_file import write_testbed
 
 pytest.importorskip("pty", reason="no pseudo terminals, no SIGHUP")
 from tests.support import thorough
+from tests.support.emulating_program import emulating
 from tests.support.pseudo_terminal import PATIENCE, AtTerminal
 from tests.support.recorded_events import events_of
 
-PROGRAM = [sys.executable, "-m", "equipoise.app.cli"]
 SPEED = 1e-3  # m/s
 INTO = 1.5  # s into a move
 TRIES = 3
@@ -41,12 +39,8 @@ def bench(tmp_path_factory):
     # It swings from the start, since no homing holds it: where stops are the matter, it may.
     bed = replace(bed, masses=masses, hardware=hardware, tilt_limit=3.0)
     write_testbed(bed, folder / "slow.toml")
-    words = [*PROGRAM, "emulate", "slow.toml", "--out", "there.toml", "--max-time-s", "600"]
-    with subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, text=True) as there:
-        assert next(line for line in there.stdout if "wrote" in line)
+    with emulating(folder, "slow.toml", ended_with=signal.SIGTERM):
         yield folder
-        there.send_signal(signal.SIGTERM)
-        assert "the true centre of mass" in there.stdout.read()
 
 
 def move_of(record):
