@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 from collections import Counter
 from collections.abc import Sequence
@@ -43,7 +44,8 @@ COMMANDS = {  # and until when a moment is drawn, s; chosen: most of the work, i
 }
 ON_BENCH = "--bench"
 LEFT = 60.0  # s, chosen: for a command to end
-SETTLED = 0.5  # s, chosen: for a deceleration, and between two looks at masses that stand
+SETTLED = 0.5  # s, chosen: for a deceleration, and between two answers about masses that stand
+ANSWERS = 4  # chosen: a leg that were still to come takes a quarter second
 POSITION = re.compile(rb"<(\w+)[^|>]*\|MPos:([^|>]+)[^>]*>")  # Grbl's answer to a question mark
 
 
@@ -56,17 +58,26 @@ class Interrupted:
     code: int  # negative: the signal that killed it
     finished: bool  # before the signal came
     traceback: bool
-    standing: bool = True  # every mass, afterwards
+    answers: tuple[str, ...] = ()  # of the board afterwards: its state and where its masses are
     said: str = ""
 
     @property
     def crashed(self) -> bool:
-        return self.code < 0
+        """Say whether a signal killed it that nobody sent."""
+        return self.code < 0 and self.code != -signal.SIGINT
 
     @property
     def astray(self) -> bool:
-        """Say whether it ended by itself, otherwise than by the signal."""
-        return not (self.finished or self.crashed) and self.code != BY_HAND
+        """Say whether it ended by itself, otherwise than by Ctrl-C.
+
+        Once all is written the system ends it: shells call that 130, too.
+        """
+        return not (self.finished or self.crashed) and self.code not in (BY_HAND, -signal.SIGINT)
+
+    @property
+    def goes_on(self) -> bool:
+        """Say whether a mass moves afterwards."""
+        return len({answer.split()[-1] for answer in self.answers}) > 1
 
 
 def interrupted(seed: int) -> Interrupted:
@@ -141,22 +152,25 @@ def _examined(folder: Path, found: Interrupted) -> Interrupted:
     assert hardware is not None
     kind, _, port = hardware.boards[0].port.address.partition(":")
     assert kind == "serial"
-    time.sleep(SETTLED)
-    before = _position(port)
-    time.sleep(SETTLED)
-    return replace(found, standing=_position(port) == before)
+    answers = [_answer(port) for _ in range(ANSWERS)]
+    return replace(found, answers=tuple(answers))
 
 
-def _position(port: str) -> bytes:
-    """Ask a Grbl board where its masses are."""
+def _answer(port: str) -> str:
+    """Ask a Grbl board, a while later, for its state and where its masses are.
+
+    What it had answered to the command that was interrupted is thrown away.
+    """
+    time.sleep(SETTLED)
     board, received = os.open(port, os.O_RDWR | os.O_NOCTTY), b""
     try:
+        termios.tcflush(board, termios.TCIFLUSH)
         os.write(board, b"?")
         while not (found := POSITION.search(received)):
             received += os.read(board, 4096)
     finally:
         os.close(board)
-    return found[2]
+    return b" ".join(found.groups()).decode()
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
@@ -172,12 +186,15 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         at_most("interpreters that crashed", sum(run.crashed for run in runs), 0, "d"),
         at_most(f"other exit codes than {BY_HAND}", sum(run.astray for run in runs), 0, "d"),
         at_most("tracebacks", sum(run.traceback for run in runs), 0, "d"),
-        at_most("benches whose masses go on", sum(not run.standing for run in runs), 0, "d"),
+        at_most("benches whose masses go on", sum(run.goes_on for run in runs), 0, "d"),
         at_least("interrupted before they had finished", sum(not r.finished for r in runs), n // 2,
                  "d"),
     )  # fmt: skip
     counts = Counter(run.command for run in runs if not run.finished)
     shares = ", ".join(f"{name} {number}" for name, number in counts.items())
-    wrong = [run for run in runs if run.crashed or run.astray or run.traceback]
-    notes = [f"{run.command} after {run.moment:.2f} s: code {run.code}" for run in wrong]
+    wrong = [run for run in runs if run.crashed or run.astray or run.traceback or run.goes_on]
+    notes = [
+        ": ".join((f"{run.command} after {run.moment:.2f} s", f"code {run.code}", *run.answers))
+        for run in wrong
+    ]
     return Result("interrupted_commands", claim, rows, (f"Interrupted: {shares}.", *notes))

@@ -1,6 +1,8 @@
 """0: done and passed; 1: done and not; 2: wrong use; 130: by hand. Errors are one line."""
 
 import signal
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -193,3 +195,28 @@ def test_holding_follows_balancing(equipoise):
     done = equipoise("balance", "sputnix", "--seed", "3", "--hold-min", "0.5", "--max-time-s", "60")
     assert done.code in (0, 1)
     assert "0.5 min" in done.out
+
+
+LATE = """
+import atexit, signal, time
+from equipoise.app.cli import main
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+def late():
+    print("late", flush=True)
+    time.sleep(60)
+
+atexit.register(late)
+main()
+"""
+
+
+def test_by_hand_when_all_is_written_ends_it_at_once_without_a_traceback():
+    """As the system ends a program: what shells call 130."""
+    pipe = subprocess.PIPE
+    words = [sys.executable, "-c", LATE, "methods"]
+    with subprocess.Popen(words, stdout=pipe, stderr=pipe, text=True) as program:
+        assert any("late" in line for line in program.stdout)
+        program.send_signal(signal.SIGINT)
+        _, complained = program.communicate(timeout=30)
+    assert (program.returncode, complained) == (-signal.SIGINT, "")

@@ -41,7 +41,7 @@ from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.commands.track import track
 from equipoise.app.console.lasting_output import lasting
-from equipoise.app.console.stop_request import cause_of, exit_code_of, stoppable
+from equipoise.app.console.stop_request import cause_of, exit_code_of, leave_to_system, stoppable
 from equipoise.app.console.terminal import complain
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.version import __version__
@@ -98,7 +98,9 @@ def main() -> None:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
     sys.stdout, sys.stderr = lasting(sys.stdout), lasting(sys.stderr)
-    sys.exit(run())
+    code = run()
+    leave_to_system()
+    sys.exit(code)
 
 
 if __name__ == "__main__":

@@ -123,6 +123,16 @@ def stoppable(numbers: Iterable[int] = STOPPING) -> Generator[Requests]:
             signal.signal(number, handler)
 
 
+def leave_to_system() -> None:
+    """Let Ctrl-C end the program at once from here on, as a signal ends any program.
+
+    All is written and every bench is closed; what Python still tidies up would only turn a request
+    into a traceback, or lose it.
+    """
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def usual(number: int) -> object:
     """Return the handler of a signal in a program that Python has just begun."""
     return signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL
