@@ -19,8 +19,8 @@ from equipoise.model.arrays import Matrix3
 
 Gives = Literal["attitude", "rate"]
 Laboratory = Literal["z_up", "ned", "y_up"]
-SettingTable = Mapping[str, float]  # a row of numbers, such as one tag of a board
-Setting = str | float | bool | tuple[str, ...] | tuple[SettingTable, ...]
+SettingTable = Mapping[str, int | float]  # a row of numbers, such as one tag of a board
+Setting = str | int | float | bool | tuple[str, ...] | tuple[SettingTable, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,6 +56,18 @@ def test_which_masses_have_still_to_go():
     assert on_the_way(BoardState(Phase.READY, None, where, goal), axes) == {"x": False, "y": False}
 
 
+def test_a_record_that_begins_has_a_row_of_masses_however_short_it_is():
+    """Rows of masses that stand are a second apart, but none of them is of before its beginning."""
+    buffer, stand = RowBuffer(MASSES), dict.fromkeys(NAMES, 1e-3)
+    buffer.masses(stand, {}, 1.0)
+    buffer.begin()
+    buffer.masses(stand, {}, 1.0)  # that answer once more
+    assert buffer.taken().masses is None
+    buffer.masses(stand, {}, 1.05)
+    rows = buffer.taken().masses
+    assert (rows.t.tolist(), rows.values.tolist()) == ([1.05], [[1e-3, 1e-3, 1e-3]])
+
+
 def truth(t):
     """Return where masses are: commanded at 0.5 s to go to GOALS, and home again at 2 s."""
     out = np.clip((t - 0.52) * 8e-3, 0, np.abs(GOALS)) * np.sign(GOALS)

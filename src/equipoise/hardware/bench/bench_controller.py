@@ -105,7 +105,7 @@ class Keeper:
     def begin(self) -> None:
         """Note that the platform is free from now on, and forget the rows before."""
         self.note("start", "the platform is free from here on", {})
-        self._received.taken()
+        self._received.begin()
 
     def health(self) -> list[Health]:
         """Return how well each device answers."""

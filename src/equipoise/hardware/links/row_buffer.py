@@ -74,8 +74,8 @@ class RowBuffer:
         short = np.array([wants.get(name, False) for name in self._names])
         before = self._answer
         if before is None:
-            self._answer = Answer(reported, where, np.zeros(len(where), dtype=np.bool_))
-            self._append("masses", reported, where)
+            if self._append("masses", reported, where):
+                self._answer = Answer(reported, where, np.zeros(len(where), dtype=np.bool_))
             return
         if reported <= before.t:
             return
@@ -93,6 +93,11 @@ class RowBuffer:
             return None
         self._reported = {name: len(rows.t) for name, rows in self._rows.items()}
         return _recording(self._names, parts)
+
+    def begin(self) -> None:
+        """Forget the rows so far; the next answer has a row, however soon it comes."""
+        self.taken()
+        self._answer = None
 
     def taken(self) -> Recording:
         """Return the rows since this was last asked, and forget them."""
