@@ -14,3 +14,4 @@ def test_an_interrupted_command_ends_by_itself_and_its_masses_stand(seed):
     found = interrupted(seed)
     wrong = found.crashed, found.astray, found.traceback, found.goes_on
     assert wrong == (False, False, False, False), found
+    assert not found.finished or found.code in (0, 1), found
