@@ -46,6 +46,11 @@ class EstimateReason(Code):
 
     # Of the model that a record supports
     EVENTS_FOUND = "events_found", "It steps over {count:.0f} events, at {names} s."
+    EVENTS_AT_TRAVELS = (
+        "events_at_travels",
+        "Masses travel at the time of events ({names} s), so that such a travel gives no scale; "
+        "check the log of the masses.",
+    )
     TOO_MANY_EVENTS = "too_many_events", "So many events leave nothing to trust the numbers by."
     ATTITUDE_NOISE_OFF = (
         "attitude_noise_off",
@@ -71,6 +76,10 @@ class EstimateReason(Code):
         "the model does not know, do not trust the numbers.",
     )
     OUTLIERS_REMOVED = "outliers_removed", "{rows:.0f} outlying rows are left out."
+    RATES_UNRESOLVED = (
+        "rates_unresolved",
+        "{rows:.0f} gyro rows are left out: masses travelled between the rows of their track.",
+    )
 
     # Of a centre of mass that drifts
     DRIFTS = (
