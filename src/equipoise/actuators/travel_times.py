@@ -60,8 +60,8 @@ def merged_travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]
     """Return first and last rows of travels, those with a short pause between as one."""
     found, pause = travels(t, d, speed), PAUSE
     while True:
-        apart = [k for k in range(1, len(found)) if t[found[k][0]] - t[found[k - 1][1]] >= pause]
-        bounds = [0, *apart, len(found)]
+        starts = [k for k in range(1, len(found)) if t[found[k][0]] - t[found[k - 1][1]] >= pause]
+        bounds = [0, *starts, len(found)]
         if len(bounds) - 1 <= MOST or pause > t[-1] - t[0]:
             break
         pause *= 2
