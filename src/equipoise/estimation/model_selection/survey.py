@@ -184,7 +184,7 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     """Return the model that the record supports, and the fit in it; unsettled if it went astray."""
     cuts = cut_times(recording)
     model = RecordModel(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
-    if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
+    if len(cuts) < FEWEST:
         return replace(model, cuts=np.zeros(0))
     try:
         return coloured(examined(levelled(model)))
@@ -205,7 +205,7 @@ def examined(model: RecordModel) -> RecordModel:
         wild, _, _ = calibrated(wandering(model))
         if is_drowned(wild):
             return wild
-        if not is_near(model.fitted):
+        if not (is_near(model.fitted) and model.fitted.converged):
             return doubted(driven(wild))
     greedy = repeated(model)
     if len(greedy.events) < MANY:
