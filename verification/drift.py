@@ -27,7 +27,7 @@ DRIFT = 1e-6 / 60  # m/s
 HOLD = 1800.0  # s
 LIMIT = 3e-6  # m, per axis
 EVERY = 1.0  # s
-HOLDING = HoldOptions(HOLD)
+HOLDING = HoldOptions(duration=HOLD)
 TERMS = expand(("drift",))
 Array = NDArray[np.float64]
 
@@ -98,7 +98,7 @@ def posteriors(steps: Iterator[Step], bench: Watched) -> Iterator[tuple[Step, Ar
 
 def held(hold: float, seed: int) -> Run:
     """Balance and hold the platform of one seed for so long (s)."""
-    holding = HoldOptions(hold)
+    holding = HoldOptions(duration=hold)
     bench = Watched(SimulatedBench(drifting(seed), seed))
     began, moves, last = np.inf, 0, None
     errors, zs = [np.full(3, np.nan)], [np.full(3, np.nan)]

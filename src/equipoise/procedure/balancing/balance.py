@@ -44,7 +44,7 @@ MEASUREMENT = 0.4  # s between fits
 KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
 INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move is known
 FIRM = 0.99  # probability of being within tolerance at which to leave a move unused
-SPENT = 0.97  # the same with no move left, or no time for one
+SPENT = 0.98  # the same with no move left, or no time for one; a verdict passes from 0.975
 TRIM = 0.3  # of the tolerance: an offset that the last move, when its time comes, is spent on
 LATEST = 0.97  # of the time, less SETTLE: when the last move is made at the latest
 LAST = 0.25  # of the tolerance: the same for the last move
@@ -114,7 +114,7 @@ def reason_to_stop(
     movable = len(progress.moves) < options.max_moves
     early = bench.time - began < LATEST * (options.max_time - SETTLE)
     sure = FIRM if movable and early else SPENT
-    if judged and is_within(knowledge, options.target, options.tolerance, sure):
+    if judged and is_within(knowledge, options, sure):
         return StepReason.WITHIN_TOLERANCE
     if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
         return StepReason.ESTIMATE_UNUSABLE
@@ -234,7 +234,7 @@ def final(bench: Bench, progress: Progress, options: BalanceOptions, why: StepRe
     """Return the verification, or the stop with its reason."""
     knowledge = progress.knowledge
     last = progress.moves[-1] if progress.moves else None
-    judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
+    judged = verdict(knowledge, last, progress.still_since, options)
     if why is StepReason.TILTED:
         judged = Verdict(one_reason(VerdictReason.TILTED), knowledge.com, knowledge.sd)
     reasons = (Reason(why), *judged.reasons)
