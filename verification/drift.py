@@ -18,6 +18,7 @@ from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
+from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
 from equipoise.procedure.steps.planned_move import stops_covariance
 from equipoise.simulation.bench import SimulatedBench
@@ -65,6 +66,7 @@ class Run(NamedTuple):
     at: float  # s since the hold began, of the worst
     start: Array  # m, true, from the target, as balancing left it
     sentence: str
+    outcome: VerdictOutcome
 
 
 def drifting(seed: int) -> Testbed:
@@ -117,7 +119,8 @@ def held(hold: float, seed: int) -> Run:
     start = np.array(bench.com)[~while_held][-1] - HOLDING.target
     done = bench.time - began >= hold - 1e-6
     z, error = np.array(zs)[1:], np.array(errors)[1:]
-    return Run(seed, done, worst, moves, z, error, at, start, last.sentence)
+    return Run(seed, done, worst, moves, z, error, at, start, last.sentence,
+               last.verdict.outcome)  # fmt: skip
 
 
 def row_of(run: Run) -> Row:

@@ -41,7 +41,9 @@ FIRST_MEASUREMENT = 1.6  # s, before anything is fitted
 NOTABLE = 20e-6  # m below the target, beyond what a motor step leaves
 DEEPER = 80e-6  # m, the least way down
 MEASUREMENT = 0.4  # s between fits
-KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
+KNOWN = 0.3  # of the tolerance: an sd at which a move is worth making
+AWAY = 0.1  # of the offset: the same for the first move, which is to learn from
+BACK = 0.03  # of the offset, chosen: for later ones, since time spent below determines the height
 INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move is known
 FIRM = 0.99  # probability of being within tolerance at which to leave a move unused
 SPENT = 0.98  # the same with no move left, or no time for one; a verdict passes from 0.975
@@ -202,7 +204,8 @@ def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float
     share = LATEST if left == 1 else 1 - left / (options.max_moves + 1)
     late = bench.time - began > share * (options.max_time - SETTLE)
     enough = LAST if left == 1 else KNOWN
-    known = bool(np.all((sd < enough * options.tolerance) | ((sd < 0.1 * off) & (left > 1))))
+    rough = AWAY if left == options.max_moves else BACK
+    known = bool(np.all((sd < enough * options.tolerance) | ((sd < rough * off) & (left > 1))))
     worth = off > TRIM * options.tolerance if late and left == 1 else off + sd > options.tolerance
     return bool(np.any(worth)) and (known or late) and fresh_enough(knowledge, progress.still_since)
 
