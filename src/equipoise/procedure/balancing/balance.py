@@ -52,6 +52,7 @@ LATEST = 0.97  # of the time, less SETTLE: when the last move is made at the lat
 LAST = 0.25  # of the tolerance: the same for the last move
 HELPS = 0.9  # of the predicted tilt, chosen: that a move against tilting must reach
 SETTLE = 20.0  # s to keep for the measurement after the last move
+RETURN = 45.0  # s, chosen: to keep for a way below, a stay there, the way back and SETTLE
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -145,7 +146,8 @@ def decide(
             return option
     if not (progress.braking or ripe(bench, progress, options, began)):
         return None
-    learning = worth_learning(knowledge, testbed, left, options)
+    hurried = bench.time - began > options.max_time - RETURN
+    learning = not hurried and worth_learning(knowledge, testbed, left, options)
     aim = below(knowledge, options.target, testbed) if learning else options.target
     option = option_for(view, aim)
     pressed = bench.time - began > options.max_time - SETTLE
