@@ -43,7 +43,6 @@ DEPTH = 0.04  # m, by which masses go down in the second
 LIMITS = (1e-4, 3e-3)  # N m, chosen: from three times the floor of such a record
 MULTIPLES = (0.2, 5.0)  # of what is required, the truth
 CHAINS = 200  # platforms, by which a design is judged
-Trial = Callable[[int], "Judged"]
 
 
 class Judged(NamedTuple):
@@ -142,14 +141,22 @@ def design(seed: int) -> Judged:
     return Judged(design_verdict(budget, required, ()).outcome, left <= required)
 
 
-TRIALS: Mapping[str, tuple[Criterion, Trial]] = {
-    "procedure.balancing.balance": (CENTRED, balance),
-    "procedure.balancing.run_law": (CENTRED, law),
-    "procedure.balancing.balance_manually": (CENTRED, by_hand),
-    "procedure.balancing.hold_verdict": (HELD, hold),
-    "procedure.identification.requirement, torque": (TORQUE, partial(requirement, TORQUE)),
-    "procedure.identification.requirement, offset": (OFFSET, partial(requirement, OFFSET)),
-    "planning.sizing.limits": (DESIGN, design),
+class Trial(NamedTuple):
+    """A verdict and its use."""
+
+    criterion: Criterion
+    judge: Callable[[int], Judged]
+    cost: int = 1  # one in so many of the seeds is tried
+
+
+TRIALS: Mapping[str, Trial] = {
+    "procedure.balancing.balance": Trial(CENTRED, balance),
+    "procedure.balancing.run_law": Trial(CENTRED, law, 5),
+    "procedure.balancing.balance_manually": Trial(CENTRED, by_hand, 2),
+    "procedure.balancing.hold_verdict": Trial(HELD, hold, 10),
+    "procedure.identification.requirement, torque": Trial(TORQUE, partial(requirement, TORQUE)),
+    "procedure.identification.requirement, offset": Trial(OFFSET, partial(requirement, OFFSET)),
+    "planning.sizing.limits": Trial(DESIGN, design),
 }
 PROVEN_BY = {"verdict", "judged"}  # of ``procedure.steps.verify``
 
