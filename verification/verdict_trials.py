@@ -26,7 +26,7 @@ from equipoise.model import criterion
 from equipoise.model.criterion import BALANCED as CENTRED
 from equipoise.model.criterion import DESIGN, HELD, OFFSET, TORQUE, Criterion, VerdictOutcome
 from equipoise.model.recording import Recording, join
-from equipoise.planning.sizing.budget import budget_of, mean_square
+from equipoise.planning.sizing.budget import Budget, budget_of, mean_square
 from equipoise.planning.sizing.expected_torque import expected_torque
 from equipoise.planning.sizing.limits import verdict as design_verdict
 from equipoise.procedure.identification.assess import AssessOptions, answers_of, fit_of, pull_of
@@ -123,7 +123,7 @@ def requirement(criterion_of: Criterion, seed: int) -> Judged:
 
 
 @cache
-def designed(which: int) -> tuple[float, object]:
+def designed(which: int) -> tuple[float, Budget]:
     """Return the torque (N m) that a testbed's platforms are left with, and its budget."""
     bed = beds()[which]
     one, two = budget_of(replace(case_of(bed), moves=1)), budget_of(case_of(bed))
