@@ -28,6 +28,7 @@ from equipoise.model.criterion import DESIGN, HELD, OFFSET, TORQUE, Criterion, V
 from equipoise.model.recording import Recording, join
 from equipoise.planning.sizing.budget import Budget, budget_of, mean_square
 from equipoise.planning.sizing.expected_torque import expected_torque
+from equipoise.planning.sizing.limits import ENOUGH
 from equipoise.planning.sizing.limits import verdict as design_verdict
 from equipoise.procedure.identification.assess import AssessOptions, answers_of, fit_of, pull_of
 from equipoise.procedure.steps.tilt_guard import guarded
@@ -138,7 +139,8 @@ def design(seed: int) -> Judged:
     """Design with a requirement; platforms balanced in simulation are what is true."""
     left, budget = designed(seed % len(beds()))
     required = left / log_uniform(np.random.default_rng([79, seed]), MULTIPLES)
-    return Judged(design_verdict(budget, required, ()).outcome, left <= required)
+    good = left <= required and budget.within >= ENOUGH
+    return Judged(design_verdict(budget, required, ()).outcome, good)
 
 
 class Trial(NamedTuple):
