@@ -3,7 +3,7 @@
 import numpy as np
 
 from equipoise.model.arrays import Vector3
-from equipoise.model.criterion import DESIGN, Interval, VerdictOutcome, decided
+from equipoise.model.criterion import DESIGN, Interval
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 from equipoise.model.units import MM, PERCENT, UM, UN_M
@@ -14,7 +14,6 @@ from equipoise.planning.sizing.expected_torque import Line
 from equipoise.planning.sizing.reachable_set import Reach, tolerance, unreachable
 from equipoise.planning.sizing.sensitivity import MASS_LENGTHS, Bettered
 
-PASSED = VerdictOutcome.PASSED
 ACCURACY = 0.15  # of a torque, chosen: within it predictions agree with Monte Carlo
 ENOUGH = 0.95  # of platforms as stated, chosen: as many as a law has to balance in ``compare``
 NOTABLE = 0.01  # of the torque, chosen: a change that brings less is not worth a line
@@ -93,11 +92,11 @@ def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]
     numbers |= {"required": required, "accuracy": ACCURACY}
     if budget.within < ENOUGH:
         return Verdict(one_reason(Why.OUT_OF_REACH, **numbers))
-    found = predicted(budget.torque)
-    enough = [each.name for each in better if decided(predicted(each.torque), required) is PASSED]
-    if decided(found, required) is VerdictOutcome.FAILED and enough:
+    answer = DESIGN.answer(predicted(budget.torque), required, numbers)
+    enough = [change.name for change in better if change.torque <= required]
+    if answer.code is DESIGN.refuted and enough:
         return Verdict(one_reason(Why.MET_BY_ONE_CHANGE, *enough, **numbers))
-    return Verdict((DESIGN.answer(found, required, numbers),))
+    return Verdict((answer,))
 
 
 def predicted(torque: float) -> Interval:
