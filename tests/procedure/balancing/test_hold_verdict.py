@@ -34,7 +34,7 @@ def test_two_sd_decide(off, outcome):
 
 def test_one_measurement_that_cannot_tell_is_enough():
     """However good the others are; the sentence has the farthest offset and its sd then."""
-    judged = verdict_on([at(0, 0, 0.5), at(0, 2.95, 0.1), at(0.2, 0, 0)], AIM, 60.0)
+    judged = verdict_on([at(0, 0, 0.5), at(0, 2.9, 0.1), at(0.2, 0, 0)], AIM, 60.0)
     assert judged.outcome == "undecided"
     assert judged.reasons[0].parameters == ("y",)
     assert "held for 1 min; at most (0.2 +/- 0.1, 2.9 +/- 0.1, 0.5 +/- 0.5) um" in judged.sentence
