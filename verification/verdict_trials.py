@@ -42,6 +42,7 @@ HOLD = 300.0  # s
 PART = 60.0  # s, of a record of an assessment; there are three
 DEPTH = 0.04  # m, by which masses go down in the second
 LIMITS = (1e-4, 3e-3)  # N m, chosen: from three times the floor of such a record
+ASIDE = 0.1  # of its height, chosen: one that hangs leaning by more swings beyond its tilt limit
 MULTIPLES = (0.2, 5.0)  # of what is required, the truth
 CHAINS = 200  # platforms, by which a design is judged
 
@@ -98,8 +99,7 @@ def requirement(criterion_of: Criterion, seed: int) -> Judged:
     """Assess a hanging platform that is a drawn multiple of what is required off."""
     rng, bed = np.random.default_rng([78, seed]), read_preset("sputnix")
     assert bed.truth is not None
-    way = rng.normal(size=3)
-    way[2] = -abs(way[2])
+    way = np.append(ASIDE * rng.normal(size=2), -1.0)
     way /= np.linalg.norm(way)
     limit, multiple = log_uniform(rng, LIMITS), log_uniform(rng, MULTIPLES)
     tilt = AssessOptions().tilt

@@ -203,8 +203,8 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
-    ("identification/requirement.py", "if found.high <= requirement.limit",
-     "if found.value <= requirement.limit", "procedure/identification/test_requirement.py"),
+    ("balancing/hold_verdict.py", "each.low if failing else each.high", "each.low",
+     "procedure/balancing/test_hold_verdict.py"),
     ("steps/planned_move.py", "(np.abs(change) / speed).max()", "(np.abs(change) / speed).min()",
      "procedure/steps/test_planned_move.py"),
     ("steps/clean_record.py", "if mask.mean() > MOST:", "if mask.mean() > 2 * MOST:",

@@ -32,7 +32,7 @@ def test_two_sd_decide(off, outcome):
     assert verdict_on([at(0, 0, -off)], AIM, 60.0).outcome == outcome
 
 
-def test_one_measurement_that_cannot_tell_is_enough():
+def test_one_measurement_in_doubt_leaves_all_of_it_undecided():
     """However good the others are; the sentence has the farthest offset and its sd then."""
     judged = verdict_on([at(0, 0, 0.5), at(0, 2.9, 0.1), at(0.2, 0, 0)], AIM, 60.0)
     assert judged.outcome == "undecided"
