@@ -36,6 +36,9 @@ MODEL = _of("model", *(
 ), (
     "hardware.py", "return self.zero + (-1.0", "return self.zero - (-1.0",
     "hardware/boards/test_tmcl.py",
+), (
+    "criterion.py", "if found.high <= limit", "if found.low <= limit",
+    "statistical/test_verdicts.py",
 ))  # fmt: skip
 
 MATHS = _of(
