@@ -36,6 +36,9 @@ MODEL = _of("model", *(
 ), (
     "hardware.py", "return self.zero + (-1.0", "return self.zero - (-1.0",
     "hardware/boards/test_tmcl.py",
+), (
+    "criterion.py", "if found.high <= limit", "if found.low <= limit",
+    "statistical/test_verdicts.py",
 ))  # fmt: skip
 
 MATHS = _of(
@@ -203,8 +206,8 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
-    ("identification/requirement.py", "if found.high <= requirement.limit",
-     "if found.value <= requirement.limit", "procedure/identification/test_requirement.py"),
+    ("balancing/hold_verdict.py", "each.low if failing else each.high", "each.low",
+     "procedure/balancing/test_hold_verdict.py"),
     ("steps/planned_move.py", "(np.abs(change) / speed).max()", "(np.abs(change) / speed).min()",
      "procedure/steps/test_planned_move.py"),
     ("steps/clean_record.py", "if mask.mean() > MOST:", "if mask.mean() > 2 * MOST:",

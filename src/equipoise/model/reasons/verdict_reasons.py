@@ -7,8 +7,8 @@ WHERE = (
     "{com_z:um .2f} +/- {sd_z:um .2f}) um"
 )
 HOLD = (
-    "held for {duration:min .3g} min; at most ({off_x:um .1f}, {off_y:um .1f}, {off_z:um .1f}) um "
-    "from the target."
+    "held for {duration:min .3g} min; at most ({off_x:um .1f} +/- {sd_x:um .1f}, {off_y:um .1f} "
+    "+/- {sd_y:um .1f}, {off_z:um .1f} +/- {sd_z:um .1f}) um from the target"
 )
 TORQUE = (
     "gravity's torque within {tilt:deg g} deg of level, rms, is {found:uN m plain} uN m (95 %: "
@@ -45,8 +45,12 @@ class VerdictReason(Code):
         f"Failed: {WHERE}, which is not where the last move should have left it.",
     )
     ESTIMATE_UNUSABLE = "estimate_unusable", "Cannot tell:"  # the estimate's own reasons follow
-    HELD = "held", f"Passed: {HOLD}"
-    NOT_HELD = "not_held", f"Failed: {HOLD}"
+    HELD = "held", f"Passed: {HOLD}, within tolerance on every axis all the time."
+    HOLD_UNDECIDED = (
+        "hold_undecided",
+        f"Cannot tell: {HOLD}; {{names}} not known well enough to be sure.",
+    )
+    NOT_HELD = "not_held", f"Failed: {HOLD}; {{names}} outside the tolerance."
 
     # On a run that was broken off
     TILTED = "tilted", "Stopped: the platform tilts beyond its limit."
@@ -90,6 +94,11 @@ class VerdictReason(Code):
     REQUIREMENT_MET = (
         "requirement_met",
         "{expected:uN m plain} uN m are expected; {required:uN m plain} uN m are required.",
+    )
+    EXPECTED_NEAR_LIMIT = (
+        "expected_near_limit",
+        "Cannot tell: {expected:uN m plain} uN m are expected, and true to {accuracy:% .3g} %; "
+        "{required:uN m plain} uN m are required.",
     )
     OUT_OF_REACH = (
         "out_of_reach",
