@@ -70,6 +70,9 @@ class Problem:
     prior: Prior
     limit: float  # Huber's, in sd; 0: none
     scale_open: bool  # nothing known changes: one moment of inertia is held for the search
+    recording: Recording  # of which it is the problem, arranged as the testbed has its masses
+    testbed: Testbed
+    longest: float  # s, of a step of integration
     jumps: tuple[Jump, ...] = UNCUT
 
 
@@ -208,7 +211,14 @@ def pose(
     maps = mass_maps(rails)
     columns = columns_of(layout)
     return Problem(testbed.body.mass, testbed.gravity, maps, errors, line, measurements, layout,
-                   columns, prior, limit, scale_open, jumps)  # fmt: skip
+                   columns, prior, limit, scale_open, recording, testbed, longest,
+                   jumps)  # fmt: skip
+
+
+def reposed(problem: Problem, recording: Recording, testbed: Testbed) -> Problem:
+    """Return the problem with other inputs: its unknowns, priors and jumps as they are."""
+    return pose(recording, testbed, problem.layout, problem.errors, problem.prior, problem.longest,
+                problem.limit, problem.scale_open, problem.jumps)  # fmt: skip
 
 
 def posed(problem: Problem) -> Posed:

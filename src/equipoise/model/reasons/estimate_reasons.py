@@ -75,6 +75,10 @@ class EstimateReason(Code):
         "That torque is {share:.2g} times what gravity does: something drives the platform that "
         "the model does not know, do not trust the numbers.",
     )
+    INPUT_LIMITS = (
+        "input_limits",
+        "How well the input '{0}' is known limits {rest}.",
+    )
     OUTLIERS_REMOVED = "outliers_removed", "{rows:.0f} outlying rows are left out."
     RATES_UNRESOLVED = (
         "rates_unresolved",

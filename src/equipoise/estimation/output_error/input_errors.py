@@ -1,0 +1,169 @@
+"""What inputs that were stated or reported, not measured in the record, add to the covariance.
+
+A platform's mass, masses of sliders, momenta and mountings of wheels and gyros, gravity, clocks:
+each is off by some sd. One that gives the scale, alone, shows in no residual, so it is not sought
+but carried (a "considered" parameter; Schmidt 1966). With A the information of the fit and b the
+descent of its cost, an input p off by one sd s moves the optimum by
+
+    dx = A^-1 db/dp s,         covariance + sum over inputs of dx dx^T
+
+db/dp is the difference quotient of b at the optimum. What follows from the estimate and the input
+together (the centre of mass at the end, masses where they stand) takes both ways.
+
+Each device turns its own part h of the known momentum, or torque:
+
+    gain      dh = s h              mounting      dh = s e_i x h,   i = x, y, z
+
+A clock that is slow stretches time from the beginning of the record: that of the camera, or of a
+gyro alone, all channels; that of a gyro beside a camera its own rows.
+
+Cannot see errors of inputs within the record, such as a wheel's friction; nor that two inputs
+contradict each other, which would tell more of either: intervals are then too wide.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.stored_momentum import known_torque, stored_momentum
+from equipoise.estimation.output_error.problem import Problem, reposed
+from equipoise.estimation.output_error.solution import Fitted, evaluate
+from equipoise.estimation.parameters.fit_parameters import physical
+from equipoise.maths.linalg import inverse_where
+from equipoise.model.arrays import Floats, Matrix3
+from equipoise.model.devices import Device
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+
+STEP = 0.01  # sd, chosen: so small that the quotient is a derivative, far above rounding
+AXES = np.eye(3)
+
+
+class Varied(NamedTuple):
+    """What is given when one input is off by ``STEP`` of its sd."""
+
+    name: str
+    recording: Recording
+    testbed: Testbed
+
+
+class InputShift(NamedTuple):
+    """How an input that is off by one sd moves the optimum."""
+
+    name: str
+    shift: Floats  # (n,) in physical coordinates
+    varied: Fitted  # the same optimum, the input off by ``STEP``
+
+
+def scaled(channel: Samples | None, share: float) -> Samples | None:
+    """Return a channel with its values a share larger."""
+    return None if channel is None else replace(channel, values=channel.values * (1 + share))
+
+
+def stretched(channel: Samples | None, start: float, share: float) -> Samples | None:
+    """Return a channel whose clock was slower by a share since ``start`` (s)."""
+    return (
+        None if channel is None else replace(channel, t=start + (channel.t - start) * (1 + share))
+    )
+
+
+def platform_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+    """Yield mass, gravity, masses on rails, and momentum and torque that no device explains."""
+    body, masses = testbed.body, testbed.masses
+    heavier = replace(body, mass=body.mass * (1 + STEP * testbed.mass_sd))
+    yield Varied("platform mass", recording, replace(testbed, body=heavier))
+    stronger = testbed.gravity * (1 + STEP * testbed.gravity_sd)
+    yield Varied("gravity", recording, replace(testbed, gravity=stronger))
+    for i, mass in enumerate(masses):
+        if mass.doubt is None:  # else what a calibration seeks
+            other = replace(mass, mass=mass.mass * (1 + STEP * mass.mass_sd))
+            rest = replace(testbed, masses=(*masses[:i], other, *masses[i + 1 :]))
+            yield Varied(f"mass {mass.name}", recording, rest)
+    if recording.devices is None:
+        more = scaled(recording.momentum, STEP * testbed.momentum_sd)
+        yield Varied("momentum", replace(recording, momentum=more), testbed)
+        more = scaled(recording.torque, STEP * testbed.torque_sd)
+        yield Varied("torque", replace(recording, torque=more), testbed)
+
+
+def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+    """Yield the record's clock, and that of a gyro beside a camera."""
+    start, _ = recording.span
+    camera, gyro = recording.attitude, recording.rate
+    first = testbed.gyro if camera is None else testbed.attitude
+    if first is not None:
+        share = STEP * first.clock_sd
+        yield Varied("clock", replace(
+            recording,
+            attitude=stretched(camera, start, share),
+            rate=gyro if camera is not None else stretched(gyro, start, share),
+            masses=stretched(recording.masses, start, share),
+            momentum=stretched(recording.momentum, start, share),
+            torque=stretched(recording.torque, start, share),
+        ), testbed)  # fmt: skip
+    if camera is not None and testbed.gyro is not None:
+        late = stretched(gyro, start, STEP * testbed.gyro.clock_sd)
+        yield Varied("gyro clock", replace(recording, rate=late), testbed)
+
+
+def alone(testbed: Testbed, device: Device) -> Testbed:
+    """Return the testbed with one of its devices only."""
+    return replace(
+        testbed,
+        wheels=tuple(each for each in testbed.wheels if each is device),
+        cmgs=tuple(each for each in testbed.cmgs if each is device),
+        magnetorquers=tuple(each for each in testbed.magnetorquers if each is device),
+        jets=tuple(each for each in testbed.jets if each is device),
+    )
+
+
+def turned_by(part: Samples | None, whole: Samples | None, matrix: Matrix3) -> Samples | None:
+    """Return a known input with M h more, h the part of it that one device gives."""
+    if part is None or whole is None:
+        return whole
+    return replace(whole, values=whole.values + part.values @ matrix.T)
+
+
+def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+    """Yield gain and mounting of each device, by its part of the known momentum and torque."""
+    if recording.devices is None:
+        return
+    for device in testbed.devices:
+        single = alone(testbed, device)
+        h, tau = stored_momentum(recording, single), known_torque(recording, single)
+        gain = STEP * device.gain_sd * np.eye(3)
+        turns = [STEP * device.mounting_sd * np.cross(axis, AXES).T for axis in AXES]
+        names = [f"gain of {device.name}", *[f"mounting of {device.name}"] * len(AXES)]
+        for name, matrix in zip(names, (gain, *turns), strict=True):
+            momentum = turned_by(h, recording.momentum, matrix)
+            torque = turned_by(tau, recording.torque, matrix)
+            yield Varied(name, replace(recording, momentum=momentum, torque=torque), testbed)
+
+
+def variations(problem: Problem) -> Iterator[Varied]:
+    """Yield every input that has an sd."""
+    recording, testbed = problem.recording, problem.testbed
+    for part in (platform_varied, clocks_varied, devices_varied):
+        yield from part(recording, testbed)
+
+
+def input_shifts(fitted: Fitted) -> tuple[InputShift, ...]:
+    """Return how each input moves the optimum of a fit, where it does.
+
+    Of the optimum with all priors, the anchor's too: without it what the data leave open would move
+    without bound.
+    """
+    problem, layout = fitted.problem, fitted.problem.layout
+    here, covariance = fitted.at.descent, inverse_where(fitted.at.normal, ~problem.prior.held)
+    values = physical(fitted.point, problem.mass, layout)
+    found: list[InputShift] = []
+    for varied in variations(problem):
+        other = reposed(problem, varied.recording, varied.testbed)
+        there = evaluate(other, fitted.point, fitted.jumps).descent
+        direct = physical(fitted.point, other.mass, layout) - values
+        shift = (direct + covariance @ (there - here)) / STEP
+        if np.any(shift) and np.all(np.isfinite(shift)):
+            found.append(InputShift(varied.name, shift, replace(fitted, problem=other)))
+    return tuple(found)
