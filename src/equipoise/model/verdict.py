@@ -27,12 +27,15 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         Why.OFFSET_MET,
         Why.NOTHING_REQUIRED,
         Why.REQUIREMENT_MET,
+        Why.RUNS_AGREE,
     ),
     VerdictOutcome.UNDECIDED: (
         Why.TOO_UNCERTAIN,
         Why.ESTIMATE_UNUSABLE,
         Why.TORQUE_UNDECIDED,
         Why.OFFSET_UNDECIDED,
+        Why.RUNS_INCOMPARABLE,
+        Why.RUNS_NOT_FITTED,
     ),
     VerdictOutcome.FAILED: (
         Why.OUTSIDE_TOLERANCE,
@@ -44,6 +47,7 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         Why.OUT_OF_REACH,
         Why.MET_BY_ONE_CHANGE,
         Why.MET_BY_NO_CHANGE,
+        Why.RUNS_SCATTER,
     ),
     VerdictOutcome.HALTED: (
         Why.TILTED,

@@ -144,23 +144,33 @@ def too_few(recording: Recording, testbed: Testbed) -> bool:
 
 def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of a record, with its residual on a part that was held out."""
+    return modelled(recording, testbed, params)[1]
+
+
+def modelled(
+    recording: Recording, testbed: Testbed, params: Params
+) -> tuple[RecordModel | None, Estimate]:
+    """Return the model that a record supports, and its estimate; too few rows have no model."""
     recording = arranged(recording, testbed.mass_names)
     if too_few(recording, testbed):
         nothing = outcome(Why.TOO_FEW_ROWS, rows=recording.rows)
-        return Estimate(METHOD, nothing, (), np.zeros((0, 0)))
+        return None, Estimate(METHOD, nothing, (), np.zeros((0, 0)))
     if not params.robust:
-        return estimate_of(recording, testbed, params)
+        return modelled_by_all_rows(recording, testbed, params)
     kept, gone = without_outliers(recording, testbed, params)
-    found = estimate_of(kept, testbed, params)
+    model, found = modelled_by_all_rows(kept, testbed, params)
     if not gone:
-        return found
+        return model, found
     left_out = Reason(Why.OUTLIERS_REMOVED, (), {"rows": gone})
-    return replace(found, outcome=Outcome((*found.outcome.reasons, left_out)))
+    return model, replace(found, outcome=Outcome((*found.outcome.reasons, left_out)))
 
 
-def estimate_of(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
-    """Return the estimate of rows that are all to be used."""
-    return as_estimate(surveyed(recording, testbed, params), recording, params)
+def modelled_by_all_rows(
+    recording: Recording, testbed: Testbed, params: Params
+) -> tuple[RecordModel, Estimate]:
+    """Return the model and the estimate of rows that are all to be used."""
+    model = surveyed(recording, testbed, params)
+    return model, as_estimate(model, recording, params)
 
 
 def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Estimate:
