@@ -49,6 +49,7 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.TRACKER_INNOVATIONS_TOO_LARGE,
         Why.TOO_MANY_ROWS_REJECTED,
         Why.GYRO_MIRRORED,
+        Why.RUNS_DISAGREE,
     ),
     OutcomeCode.IMPOSSIBLE: (Why.IMPOSSIBLE_INERTIA, Why.FILTER_DIVERGED),
     OutcomeCode.NOT_CONVERGED: (Why.NOT_CONVERGED,),
@@ -76,7 +77,6 @@ NOT_TRUSTWORTHY = (
     Why.GYROSCOPIC_TORQUE_LEFT_OUT,
     Why.SWINGS_AT_REST,
     Why.RESTS_DISAGREE,
-    Why.RUNS_DISAGREE,
 )
 
 

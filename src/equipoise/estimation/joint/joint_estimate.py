@@ -4,7 +4,8 @@ Each record is surveyed by itself (``reference_fit``): its noise, its events, it
 own estimate can be used are then fitted together in these models (``profile_descent``). A record
 whose residuals are not quite noise counts less, by the square of how much that widens its own
 intervals. Where runs scatter more than their sd lead to expect (``run_scatter``), all intervals are
-widened by as much.
+widened by as much; beyond ``DISAGREE`` the runs are of different platforms, and a joint fit bends
+all that it can to make them one: it has no numbers then.
 
 Cannot see what errs alike in all records: a mass that is stated wrong, a camera that leans always.
 """
@@ -39,7 +40,7 @@ from equipoise.estimation.output_error.fit_estimate import (
 from equipoise.estimation.output_error.trajectory import METHOD
 from equipoise.estimation.parameters.observability import Visibility
 from equipoise.estimation.parameters.scale_free_ratios import ORDER, ratios_of
-from equipoise.model.arrays import Square
+from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.joint_estimate import JointEstimate, RunScatter
 from equipoise.model.outcome import Outcome, outcome
@@ -51,7 +52,7 @@ from equipoise.model.verdict import Verdict
 from equipoise.model.version import __version__
 
 FEWEST = 2  # runs
-DISAGREE = 3.0  # chosen: times as large as stated; a larger scatter is not one of sd too small
+DISAGREE = 3.0  # chosen: times as large as stated; sd of a sound fit are not so much too small
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,18 +89,25 @@ def estimate_jointly(runs: Sequence[Run], testbed: Testbed) -> JointEstimate:
         [run.source for run in kept],
         [run.estimate for run in kept],
     )
-    left_out = tuple(run.source for run in runs if not run.usable)
-    reasons = (*reasons_of(view, scatter), *left_out_reasons(left_out))
+    verdict = verdict_of(scatter)
+    reasons = (*reasons_of(view, scatter), *left_out_reasons(runs))
+    if disagree(scatter):
+        return JointEstimate(without_numbers(Outcome(reasons)), verdict, scatter, used)
     covariance = considered(joint, view.covariance, beside, pulls)
     found = concluded(joint, view, widened_by(scatter) ** 2 * covariance)
     estimate = replace(found, outcome=Outcome(reasons), provenance=origin_of(kept))
-    return JointEstimate(estimate, verdict_of(scatter), scatter, used)
+    return JointEstimate(estimate, verdict, scatter, used)
 
 
 def without_fit(why: Outcome, used: tuple[bool, ...]) -> JointEstimate:
-    """Return a joint estimate without numbers."""
-    nothing = Estimate(METHOD, why, (), np.zeros((0, 0)))
-    return JointEstimate(nothing, Verdict(one_reason(VerdictReason.RUNS_NOT_FITTED)), None, used)
+    """Return what there is where no joint fit was found."""
+    verdict = Verdict(one_reason(VerdictReason.RUNS_NOT_FITTED))
+    return JointEstimate(without_numbers(why), verdict, None, used)
+
+
+def without_numbers(why: Outcome) -> Estimate:
+    """Return an estimate that says why it has no numbers."""
+    return Estimate(METHOD, why, (), np.zeros((0, 0)))
 
 
 def weight_of(model: RecordModel) -> float:
@@ -129,17 +137,24 @@ def own_shares(
     return found
 
 
+def disagree(scatter: RunScatter) -> bool:
+    """Say whether runs scatter too much to be of one platform."""
+    return exceeds(scatter) and scatter.factor > DISAGREE
+
+
 def widened_by(scatter: RunScatter) -> float:
     """Return the factor on every sd."""
-    return scatter.factor if exceeds(scatter) else 1.0
+    return max(scatter.factor, 1.0) if exceeds(scatter) else 1.0
 
 
 def reasons_of(view: Visibility, scatter: RunScatter) -> tuple[Reason, ...]:
     """Return what there is to know of the joint estimate."""
+    widening = {"widening": scatter.factor}
+    if disagree(scatter):
+        return (Reason(Why.RUNS_DISAGREE, (), widening),)
     found = [Reason(Why.FITTED_JOINTLY, (), {"count": len(scatter.deviations)})]
     if exceeds(scatter):
-        code = Why.RUNS_DISAGREE if scatter.factor > DISAGREE else Why.RUNS_SCATTERED
-        found.append(Reason(code, (), {"widening": scatter.factor}))
+        found.append(Reason(Why.RUNS_SCATTERED, (), widening))
     if view.scale_open:
         found.insert(0, Reason(Why.RATIOS_ONLY))
     elif bool(view.hidden[BODIES].any()):
@@ -147,8 +162,9 @@ def reasons_of(view: Visibility, scatter: RunScatter) -> tuple[Reason, ...]:
     return tuple(found)
 
 
-def left_out_reasons(sources: tuple[str, ...]) -> tuple[Reason, ...]:
+def left_out_reasons(runs: Sequence[Run]) -> tuple[Reason, ...]:
     """Return which runs were left out."""
+    sources = tuple(run.source for run in runs if not run.usable)
     return (Reason(Why.RUNS_LEFT_OUT, sources),) if sources else ()
 
 

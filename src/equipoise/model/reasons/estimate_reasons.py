@@ -86,8 +86,8 @@ class EstimateReason(Code):
     RUNS_DISAGREE = (
         "runs_disagree",
         "The runs disagree, by {widening:.2g} times what their intervals allow: the platform or "
-        "the bench was not the same in all of them. Intervals are widened by it, but are not "
-        "trustworthy.",
+        "the bench was not the same in all of them. There is no joint estimate; their means and "
+        "scatter stand by themselves.",
     )
     RUNS_LEFT_OUT = "runs_left_out", "Left out, as not usable by themselves: {names}."
     TOO_FEW_RUNS = (
