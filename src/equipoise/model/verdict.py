@@ -28,6 +28,7 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         Why.NOTHING_REQUIRED,
         Why.REQUIREMENT_MET,
         Why.RUNS_AGREE,
+        Why.EVERY_RUN_PASSED,
     ),
     VerdictOutcome.UNDECIDED: (
         Why.TOO_UNCERTAIN,
@@ -48,6 +49,7 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         Why.MET_BY_ONE_CHANGE,
         Why.MET_BY_NO_CHANGE,
         Why.RUNS_SCATTER,
+        Why.SOME_RUNS_FAILED,
     ),
     VerdictOutcome.HALTED: (
         Why.TILTED,

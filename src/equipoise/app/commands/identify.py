@@ -78,8 +78,8 @@ def identify(
     one_of("--method", method, ["auto", *METHODS])
     options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust)
     if more:
-        return _jointly(recordings, bed, options, json, out)
-    return _from_one(recordings[0], bed, options, planned, json, out)
+        return _jointly(recordings, bed, options, json=json, out=out)
+    return _from_one(recordings[0], bed, options, planned, json=json, out=out)
 
 
 def _from_one(
@@ -87,6 +87,7 @@ def _from_one(
     bed: "Testbed",
     options: "IdentifyOptions",
     planned: "Plan | None",
+    *,
     json: bool,
     out: Path | None,
 ) -> int:
@@ -112,6 +113,7 @@ def _jointly(
     recordings: "Sequence[Recording]",
     bed: "Testbed",
     options: "IdentifyOptions",
+    *,
     json: bool,
     out: Path | None,
 ) -> int:

@@ -67,7 +67,7 @@ def simulate(
         return simulated(bed, planned.manoeuvre, seed)
 
     if series is not None:
-        return _series(bed, drawn, positive("--series", series), made, out)
+        return _series(bed, drawn, int(positive("--series", series)), made, out)
     check_writable(out)
     with busy("simulating"):
         write_recording(made(bed, drawn), out)

@@ -21,6 +21,8 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.identification.identify import IdentifyOptions
 from equipoise.procedure.identification.identify_runs import identify_runs, names_of
 
+FEWEST = 2  # recordings
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class IdentifiedRun:
@@ -76,7 +78,7 @@ def run(
     Raises InputError for fewer than two of them, one that is given twice, and another method than
     the trajectory fit.
     """
-    if len(recordings) < 2:  # noqa: PLR2004 - a joint fit is one of two at least
+    if len(recordings) < FEWEST:
         raise InputError("recordings", f"{len(recordings)}", "two or more for a joint fit")
     ended = list[JointEstimate]()
 
@@ -84,7 +86,9 @@ def run(
         ended.append((yield from identify_runs(recordings, testbed, options)))
 
     done = list(waiting.steps(steps(), f"identifying {len(recordings)} recordings"))
-    return JointIdentification(testbed, runs_of(recordings, testbed, done, ended[0]), done, ended[0])
+    return JointIdentification(
+        testbed, runs_of(recordings, testbed, done, ended[0]), done, ended[0]
+    )
 
 
 def runs_of(

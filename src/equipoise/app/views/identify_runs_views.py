@@ -1,6 +1,7 @@
 """An identification from several recordings for terminal, JSON and report."""
 
 from collections.abc import Iterator
+from functools import partial
 
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.estimate import run_boxes
@@ -80,7 +81,7 @@ def runs_table(done: JointIdentification) -> Table:
         "Runs, each by itself",
         done.runs,
         (Column("run"), lambda run: run.name),
-        *((number(name, "um"), lambda run, name=name: value_of(run, name)) for name in COM),
+        *((number(name, "um"), partial(value_of, name)) for name in COM),
         (number("chi-square"), lambda run: deviation_of(run, "chi_square", 3)),
         (number("expected"), lambda run: deviation_of(run, "freedom", 2)),
         (number("probability"), lambda run: deviation_of(run, "probability", 2)),
@@ -88,12 +89,12 @@ def runs_table(done: JointIdentification) -> Table:
     )
 
 
-def value_of(run: IdentifiedRun, name: str) -> str:
+def value_of(name: str, run: IdentifiedRun) -> str:
     """Return a value with its sd, if the run has it."""
     if not run.estimate.has(name):
         return ""
     _, value, sd, _, _ = cells(run.estimate.parameters[run.estimate.index(name)])
-    return f"{value} +/- {sd}"
+    return f"{value} ± {sd}"
 
 
 def deviation_of(run: IdentifiedRun, what: str, digits: int) -> str:

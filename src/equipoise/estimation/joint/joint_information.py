@@ -118,7 +118,8 @@ def beside_fit(joint: Joint, k: int, model: RecordModel, own: Estimate) -> Squar
     if not model.events:
         return added
     plain = conclude(model.fitted, METHOD, model.recording, model.coloured)
-    names = tuple(joint.shared.names[j] for j in record.place.shared)
+    layout = record.problem.layout
+    names = tuple(layout.names[int(k)] for k in record.place.own)
     at = np.ix_(record.place.shared, record.place.shared)
     added[at] = own.covariance_of(names) - plain.covariance_of(names)
     return added

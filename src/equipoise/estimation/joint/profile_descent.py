@@ -197,9 +197,7 @@ def first_record(model: RecordModel, names: tuple[str, ...], weight: float) -> R
     return Record(problem, place, weight, replace(model.fitted, problem=problem, at=at))
 
 
-def fit_jointly(
-    models: Sequence[RecordModel], weights: Sequence[float], testbed: Testbed
-) -> Joint:
+def fit_jointly(models: Sequence[RecordModel], weights: Sequence[float], testbed: Testbed) -> Joint:
     """Return the joint optimum of records that were each fitted by itself.
 
     ``testbed`` says what is known of the body beforehand.

@@ -23,12 +23,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import solve_triangular
 from scipy.special import chdtrc
 
 from equipoise.estimation.parameters.observability import OBSERVABLE
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Floats, Square
-from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
 from equipoise.model.joint_estimate import Deviation, RunScatter, Spread
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
@@ -60,8 +61,10 @@ def scaled(run: OwnShare) -> tuple[Floats, Square]:
     hung = (V.T @ run.sagged) / known
     own = np.diag(1.0 / known) + V.T @ run.beside @ V + np.outer(hung, hung)
     low = np.linalg.cholesky(own)
-    half = np.linalg.solve(low, V.T @ run.joint @ V)
-    return np.linalg.solve(low, away), symmetrise(np.linalg.solve(low, half.T))
+    half: Floats = solve_triangular(low, V.T @ run.joint @ V, lower=True)
+    z: Floats = solve_triangular(low, away, lower=True)
+    W: Square = solve_triangular(low, half.T, lower=True)
+    return z, symmetrise(W)
 
 
 def deviation(source: str, z: Floats, W: Square) -> Deviation:
@@ -97,11 +100,21 @@ def spreads_of(estimates: Sequence[Estimate]) -> tuple[Spread, ...]:
     for name in (*COM, *INERTIA):
         shown = [e.parameters[e.index(name)] for e in estimates if e.sees((name,))]
         if len(shown) > 1:
-            values, sd = np.array([(p.value, p.sd) for p in shown]).T
-            between, stated = float(np.std(values, ddof=1)), float(np.sqrt(np.mean(sd**2)))
-            unit, mean = shown[0].unit, float(np.mean(values))
-            found.append(Spread(name, unit, len(shown), mean, between, stated))
+            found.append(spread_of(shown))
     return tuple(found)
+
+
+def spread_of(shown: Sequence[Parameter]) -> Spread:
+    """Return one parameter over the runs."""
+    values, sd = np.array([p.value for p in shown]), np.array([p.sd for p in shown])
+    return Spread(
+        shown[0].name,
+        shown[0].unit,
+        len(shown),
+        float(np.mean(values)),
+        float(np.std(values, ddof=1)),
+        float(np.sqrt(np.mean(sd**2))),
+    )
 
 
 def exceeds(scatter: RunScatter) -> bool:

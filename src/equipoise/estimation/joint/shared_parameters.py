@@ -36,9 +36,7 @@ COM = slice(6, 9)
 def shared_names(layouts: Sequence[Layout]) -> tuple[str, ...]:
     """Return what records with these unknowns share, each once."""
     of_bench = [
-        name
-        for layout in layouts
-        for name in (*layout.sensor, *filter(is_of_drive, layout.errors))
+        name for layout in layouts for name in (*layout.sensor, *filter(is_of_drive, layout.errors))
     ]
     return tuple(dict.fromkeys((*BODY, *of_bench)))
 
@@ -162,4 +160,3 @@ def stepped(problem: Problem, point: Unknowns, step: Floats) -> Unknowns:
     out = np.empty_like(flat)
     retract(flat, step, problem.mass, problem.layout.slots, out)
     return unknowns_of(out)
-

@@ -100,6 +100,13 @@ class VerdictReason(Code):
     )
     RUNS_NOT_FITTED = "runs_not_fitted", "Cannot tell whether runs agree: there is no joint fit."
 
+    # On a series of balancings
+    EVERY_RUN_PASSED = "every_run_passed", "Passed: each of {count:.0f} runs did."
+    SOME_RUNS_FAILED = (
+        "some_runs_failed",
+        "Failed: {failed:.0f} of {count:.0f} runs did not pass, number {names}.",
+    )
+
     # On a design
     NOTHING_REQUIRED = (
         "nothing_required",
