@@ -80,24 +80,20 @@ def balance(
     out
         Folder for report, figures and balance.json; else one of its own in equipoise-runs.
     """
-    from equipoise.app.arguments.checks import check_outputs, one_of, positive, seed_of
+    from equipoise.app.arguments.checks import check_outputs, one_of, seed_of
     from equipoise.app.arguments.inputs import plan_from, testbed_from
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
     check_on_bench(on_bench)
     if is_by_hand(by_hand, reading):
-        others = _of_moving_masses(law, plan, until) + ["--bench"] * on_bench.bench
-        others += ["--series"] * (series is not None)
+        others = _of_moving_masses(law, plan, until, series) + ["--bench"] * on_bench.bench
         check_by_hand(by_hand, reading, others)
         from equipoise.app.runs.balancing import Goal
 
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
-    if series is not None and on_bench.bench:
-        raise InputError(
-            "--series", "a real bench", "a simulated platform, or one run on the bench"
-        )
+    runs = _runs(series, on_bench)
     bed, seed = testbed_from(testbed), seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed).manoeuvre
     check_outputs(out)
@@ -108,14 +104,22 @@ def balance(
         from equipoise.procedure.balancing.catalogue import CARDS
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
-    if series is not None:
-        runs = int(positive("--series", series))
+    if runs is not None:
         return _series(bed, Goal(*where), limits, (runs, seed), json=json, out=out)
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
     hand_over_run(output_of(done), json, out, bed.name)
     if done.stopped_with is not None:
         return done.stopped_with
     return 0 if done.verdict.passed else 1
+
+
+def _runs(series: int | None, on_bench: OnBench) -> int | None:
+    """Return how many runs a series has, checked."""
+    from equipoise.app.arguments.checks import positive
+
+    if series is not None and on_bench.bench:
+        raise InputError("--series", "a real bench", "a simulated platform")
+    return None if series is None else int(positive("--series", series))
 
 
 def _series(
@@ -176,10 +180,10 @@ def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> 
     )
 
 
-def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:
+def _of_moving_masses(law: str, plan: Path | None, until: Until, series: int | None) -> list[str]:
     """Return the options given that are not for a balancing by hand."""
     moves, longest, hold = until
     others = {"--law": law != "measure_and_move", "--max-moves": moves is not None,
               "--max-time-s": longest is not None, "--hold-min": hold > 0,
-              "--plan": plan is not None}  # fmt: skip
+              "--plan": plan is not None, "--series": series is not None}  # fmt: skip
     return [name for name, given in others.items() if given]
