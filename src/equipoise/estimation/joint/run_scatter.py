@@ -23,7 +23,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solve_triangular
 from scipy.special import chdtrc
 
 from equipoise.estimation.parameters.observability import OBSERVABLE
@@ -60,11 +59,8 @@ def scaled(run: OwnShare) -> tuple[Floats, Square]:
     away = (V.T @ run.descent) / known
     hung = (V.T @ run.sagged) / known
     own = np.diag(1.0 / known) + V.T @ run.beside @ V + np.outer(hung, hung)
-    low = np.linalg.cholesky(own)
-    half: Floats = solve_triangular(low, V.T @ run.joint @ V, lower=True)
-    z: Floats = solve_triangular(low, away, lower=True)
-    W: Square = solve_triangular(low, half.T, lower=True)
-    return z, symmetrise(W)
+    to_own: Square = np.linalg.inv(np.linalg.cholesky(own)).astype(np.float64, copy=False)
+    return to_own @ away, symmetrise(to_own @ V.T @ run.joint @ V @ to_own.T)
 
 
 def deviation(source: str, z: Floats, W: Square) -> Deviation:
