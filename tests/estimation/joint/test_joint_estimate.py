@@ -7,6 +7,7 @@ import pytest
 
 from equipoise.estimation.joint.joint_estimate import Run, estimate_jointly
 from equipoise.estimation.joint.run_scatter import exceeds
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model.estimate import BODY, COM, INERTIA
 from equipoise.model.outcome import OutcomeCode, Trust
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
@@ -158,3 +159,23 @@ def test_the_procedure_gives_each_run_and_ends_with_the_verdict(alone, joint):
         ("run 3",),
     ]
     assert steps[-1].verdict.code is joint.verdict.code
+
+
+def test_what_is_held_neither_scatters_nor_is_estimated():
+    """Free swings with one moment held at a wrong value: all else is stretched alike.
+
+    That pulls at both runs alike, which is no scatter between them.
+    """
+    runs = platform_runs(3, (False, False))
+    top = int(np.argmax(runs.truth[:3]))
+    wrong = runs.testbed.body.inertia_P[top, top] / runs.truth[top]
+    found = estimate_jointly(runs.alone(Params(hold=(INERTIA[top],))), runs.testbed)
+    estimate = found.estimate
+    assert found.verdict.passed
+    assert INERTIA[top] not in {spread.name for spread in found.scatter.spreads}
+    held = estimate.parameters[estimate.index(INERTIA[top])]
+    assert held.value == pytest.approx(runs.testbed.body.inertia_P[top, top], rel=1e-6)
+    others = [k for k in range(9) if k != top]
+    names = tuple(BODY[k] for k in others)
+    error = estimate.values(names) - wrong * runs.truth[others]
+    assert error @ np.linalg.solve(estimate.covariance_of(names), error) / 8 < 4.0

@@ -60,7 +60,9 @@ def core_of(model):
 def test_the_step_is_that_of_all_unknowns_at_once(models):
     """Shared and private unknowns of both records in one matrix, solved by NumPy."""
     shared = shared_of(models, BED)
-    first, second = (first_record(model, shared.names, w) for model, w in zip(models, (1.0, 0.25)))
+    first, second = (
+        first_record(model, shared.names, w) for model, w in zip(models, (1.0, 0.25), strict=True)
+    )
     n, m = shared.size, len(first.place.private)
     size = n + 2 * m
     A, b = np.zeros((size, size)), np.zeros(size)

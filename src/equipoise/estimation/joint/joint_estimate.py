@@ -10,6 +10,7 @@ all that it can to make them one: it has no numbers then.
 Cannot see what errs alike in all records: a mass that is stated wrong, a camera that leans always.
 """
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -88,6 +89,7 @@ def estimate_jointly(runs: Sequence[Run], testbed: Testbed) -> JointEstimate:
         own_shares(joint, view.covariance, beside, pulls),
         [run.source for run in kept],
         [run.estimate for run in kept],
+        held_names(joint),
     )
     verdict = verdict_of(scatter)
     reasons = (*reasons_of(view, scatter), *left_out_reasons(runs))
@@ -119,11 +121,13 @@ def weight_of(model: RecordModel) -> float:
 def own_shares(
     joint: Joint, covariance: Square, beside: Sequence[Square], pulls: Sequence[Floats]
 ) -> list[OwnShare]:
-    """Return what each record alone shows, in natural sizes."""
+    """Return what each record alone shows, in natural sizes; what is held is not sought."""
     found: list[OwnShare] = []
     for k, record in enumerate(joint.records):
-        (S, g), own = shared_information(joint, k), record.place.shared
-        size, at = sizes_of(record)[record.place.own], np.ix_(own, own)
+        (S, g), place = shared_information(joint, k), record.place
+        sought = ~joint.shared.prior.held[place.shared]
+        own, size = place.shared[sought], sizes_of(record)[place.own[sought]]
+        at = np.ix_(own, own)
         both = np.outer(size, size)
         found.append(
             OwnShare(
@@ -140,6 +144,11 @@ def own_shares(
 def disagree(scatter: RunScatter) -> bool:
     """Say whether runs scatter too much to be of one platform."""
     return exceeds(scatter) and scatter.factor > DISAGREE
+
+
+def held_names(joint: Joint) -> tuple[str, ...]:
+    """Return what is held at one value in every run."""
+    return tuple(itertools.compress(joint.shared.names, joint.shared.prior.held))
 
 
 def widened_by(scatter: RunScatter) -> float:

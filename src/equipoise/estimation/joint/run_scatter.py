@@ -78,22 +78,29 @@ def probability_of(chi_square: float, freedom: float) -> float:
 
 
 def scatter_of(
-    runs: Sequence[OwnShare], sources: Sequence[str], estimates: Sequence[Estimate]
+    runs: Sequence[OwnShare],
+    sources: Sequence[str],
+    estimates: Sequence[Estimate],
+    held: tuple[str, ...] = (),
 ) -> RunScatter:
-    """Return the scatter of runs whose own estimates are given, too."""
+    """Return the scatter of runs whose own estimates are given, too, and what these hold."""
     each = [scaled(run) for run in runs]
     square = sum(float(z @ z) for z, _ in each)
     freedom = sum(len(z) - float(np.trace(W)) for z, W in each)
     deviations = (deviation(source, *one) for source, one in zip(sources, each, strict=True))
     return RunScatter(
-        square, freedom, probability_of(square, freedom), tuple(deviations), spreads_of(estimates)
+        square,
+        freedom,
+        probability_of(square, freedom),
+        tuple(deviations),
+        spreads_of(estimates, held),
     )
 
 
-def spreads_of(estimates: Sequence[Estimate]) -> tuple[Spread, ...]:
+def spreads_of(estimates: Sequence[Estimate], held: tuple[str, ...] = ()) -> tuple[Spread, ...]:
     """Return each parameter of the body over the runs that show it, if two do."""
     found: list[Spread] = []
-    for name in (*COM, *INERTIA):
+    for name in (name for name in (*COM, *INERTIA) if name not in held):
         shown = [e.parameters[e.index(name)] for e in estimates if e.sees((name,))]
         if len(shown) > 1:
             found.append(spread_of(shown))
