@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.events.record_model import RecordModel
+from equipoise.estimation.joint import profile_descent
 from equipoise.estimation.joint.profile_descent import (
     Joint,
+    attempt,
     descend,
     first_record,
     fit_jointly,
@@ -117,6 +119,32 @@ def test_a_start_that_is_off_leads_to_the_same_optimum(joint):
     x[:3] *= 1.03
     x[6:9] += 3e-6
     again = descend(moved_to(joint, x))
+    sd = np.sqrt(np.diag(inverse_spd(local_model(joint)[0])))
+    assert again.converged
+    assert np.abs((again.x - joint.x) / sd).max() < 0.05
+
+
+def test_a_run_whose_own_optimum_is_another_body_misleads_no_start(models):
+    """One of two records is left at J half as large and nearly flat, sure of it."""
+    flat = replace(
+        models[1].fitted.point, six=models[1].fitted.point.six - [0.3, 0.3, 4.0, 0, 0, 0]
+    )
+    lost = replace(models[1], fitted=replace(models[1].fitted, point=flat))
+    joint = fit_jointly([models[0], lost], [1.0, 1.0], BED)
+    right = fit_jointly(models, [1.0, 1.0], BED)
+    sd = np.sqrt(np.diag(inverse_spd(local_model(right)[0])))
+    assert joint.converged
+    assert np.abs((joint.x - right.x) / sd).max() < 0.05
+
+
+def test_a_start_that_leads_nowhere_is_followed_by_another(models, joint, monkeypatch):
+    """A centre of mass of 5 mm above P: no record can be followed from there."""
+    lost = joint.x.copy()
+    lost[6:9] = [0.0, 0.0, 5e-3]
+    stuck = Joint(joint.shared, joint.records, lost)
+    assert not attempt(stuck).converged
+    monkeypatch.setattr(profile_descent, "starts", lambda *_: [lost, joint.x])
+    again = fit_jointly(models, [1.0, 1.0], BED)
     sd = np.sqrt(np.diag(inverse_spd(local_model(joint)[0])))
     assert again.converged
     assert np.abs((again.x - joint.x) / sd).max() < 0.05

@@ -11,7 +11,7 @@ u_i are the start, bias, torques, stops and jumps of record i, which its own fit
 is the Gauss-Newton step of all unknowns at once: what is private is eliminated exactly (Schur).
 Steps are damped and stay among possible bodies, like those of one record.
 
-Two starts: where the records' own local models meet, and the optimum of the most informed one.
+It begins where the records' own local models meet, and elsewhere (``starts``) if that fails.
 """
 
 from collections.abc import Sequence
@@ -41,6 +41,7 @@ from equipoise.model.arrays import Floats, Square
 from equipoise.model.testbed import Testbed
 
 MOST = 40  # steps, chosen: a fit that settles takes fewer than ten
+STARTS = 4  # at most, chosen
 TINY = 1e-9  # kg m^2 or m: the least size of a held value
 EACH = 60  # evaluations of a record with what is shared kept, chosen: it begins a step away
 
@@ -129,7 +130,7 @@ def settled(record: Record, x: Floats) -> Record:
     if not found[0].converged:  # so wide a step may mislead: begin where it stood
         beside = placed(record, record.fitted.point, x)
         found.append(settle(kept, beside, record.fitted.jumps, EACH))
-    best = min(found, key=lambda each: each.at.cost if np.isfinite(each.at.cost) else np.inf)
+    best = min(found, key=lambda each: finite_cost(each.at.cost))
     here = evaluate(record.problem, best.point, best.jumps)
     return replace(record, fitted=replace(best, problem=record.problem, at=here))
 
@@ -183,11 +184,26 @@ def own_optimum(shared: Shared, record: Record) -> Floats:
     return np.where(shared.prior.held, shared.prior.mean, x)
 
 
-def content(record: Record) -> float:
-    """Return how much a record shows of the body: ln det of its information, priors left out."""
-    S = reduced(record)[0][BODIES, BODIES]
-    size = np.sqrt(np.maximum(np.diag(S), 1e-300))
-    return float(np.linalg.slogdet(S / np.outer(size, size))[1] + 2 * np.sum(np.log(size)))
+def expected_cost(shared: Shared, records: Sequence[Record], x: Floats) -> float:
+    """Return how much the cost rises from the records' own optima to x, by their local models."""
+    off = shared.prior.mean - x
+    total = 0.5 * float(np.sum(shared.prior.weight * off**2))
+    for record in records:
+        (S, g), place = reduced(record), record.place.shared
+        away = x[place] - record.values(shared.size)[place]
+        total += float(away @ (0.5 * S @ away - g))
+    return total
+
+
+def starts(shared: Shared, records: Sequence[Record]) -> list[Floats]:
+    """Return where to begin, the likeliest first.
+
+    Where the local models meet, each record's own optimum, and what is known beforehand; of a
+    record that shows little, the own optimum may be far from all others.
+    """
+    found = [meeting(shared, records), shared.prior.mean]
+    found += [own_optimum(shared, record) for record in records]
+    return sorted(found, key=lambda x: expected_cost(shared, records, x))[:STARTS]
 
 
 def first_record(model: RecordModel, names: tuple[str, ...], weight: float) -> Record:
@@ -207,7 +223,22 @@ def fit_jointly(models: Sequence[RecordModel], weights: Sequence[float], testbed
         first_record(model, shared.names, weight)
         for model, weight in zip(models, weights, strict=True)
     )
-    best = max(records, key=content)
-    starts = (meeting(shared, records), own_optimum(shared, best))
-    begun = [moved_to(Joint(shared, records, x), x) for x in starts]
-    return descend(min(begun, key=lambda each: each.cost if np.isfinite(each.cost) else np.inf))
+    ended = list[Joint]()
+    for x in starts(shared, records):
+        ended.append(attempt(Joint(shared, records, x)))
+        if ended[-1].converged:
+            break
+    return min(ended, key=lambda each: (not each.converged, finite_cost(each.cost)))
+
+
+def attempt(joint: Joint) -> Joint:
+    """Return the optimum from a start; the start itself where a record's information is none."""
+    try:
+        return descend(moved_to(joint, joint.x))
+    except np.linalg.LinAlgError:
+        return joint
+
+
+def finite_cost(cost: float) -> float:
+    """Return a cost, infinite if it is no number."""
+    return cost if np.isfinite(cost) else np.inf
