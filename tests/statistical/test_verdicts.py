@@ -12,7 +12,11 @@ from tests.support import thorough
 from verification import verdict_trials, verdicts
 
 SOURCE = Path(__file__).parents[2] / "src/equipoise"
-NOT_A_CLAIM = {VerdictReason.NOTHING_REQUIRED}  # there was nothing to prove
+NOT_A_CLAIM = {
+    VerdictReason.NOTHING_REQUIRED,  # there was nothing to prove
+    VerdictReason.RUNS_AGREE,  # nothing contradicts: a test of fit proves no limit
+    VerdictReason.EVERY_RUN_PASSED,  # a count of verdicts, each of which went through the rule
+}
 PASSING = {code for code in OUTCOMES[VerdictOutcome.PASSED] if code not in NOT_A_CLAIM}
 
 

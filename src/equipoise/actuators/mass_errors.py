@@ -12,7 +12,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.drive_errors import ACROSS, GAIN, drive_errors, plays, rails_of
+from equipoise.actuators.drive_errors import (
+    ACROSS,
+    BACKLASH,
+    GAIN,
+    PLAY,
+    drive_errors,
+    plays,
+    rails_of,
+)
 from equipoise.actuators.lags import LAG, command_columns, kinds_of, lag_errors, lag_times, sags
 from equipoise.actuators.lost_motion import command_times
 from equipoise.actuators.stops import stop_errors
@@ -39,6 +47,11 @@ def unit_of(name: str) -> str:
         return "s"
     units = {GAIN: "1", ACROSS: "rad", DEPARTURE: "s", ARRIVAL: "s"}
     return units.get(name.split("_")[0], "m")
+
+
+def is_of_drive(name: str) -> bool:
+    """Say whether an unknown is a property of a drive: the same in every recording of a bench."""
+    return name.startswith(LAG) or name.split("_")[0] in (GAIN, ACROSS, BACKLASH, PLAY)
 
 
 def mass_errors(

@@ -14,14 +14,26 @@ from equipoise.model.reasons.reason import Coded, Reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 
 OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
-    VerdictOutcome.PASSED: (*(each.proven for each in CRITERIA), Why.NOTHING_REQUIRED),
-    VerdictOutcome.UNDECIDED: (*(each.undecided for each in CRITERIA), Why.ESTIMATE_UNUSABLE),
+    VerdictOutcome.PASSED: (
+        *(each.proven for each in CRITERIA),
+        Why.NOTHING_REQUIRED,
+        Why.RUNS_AGREE,
+        Why.EVERY_RUN_PASSED,
+    ),
+    VerdictOutcome.UNDECIDED: (
+        *(each.undecided for each in CRITERIA),
+        Why.ESTIMATE_UNUSABLE,
+        Why.RUNS_INCOMPARABLE,
+        Why.RUNS_NOT_FITTED,
+    ),
     VerdictOutcome.FAILED: (
         *(each.refuted for each in CRITERIA),
         Why.RECORD_MISFITS,
         Why.MOVE_MISSED,
         Why.OUT_OF_REACH,
         Why.MET_BY_ONE_CHANGE,
+        Why.RUNS_SCATTER,
+        Why.SOME_RUNS_FAILED,
     ),
     VerdictOutcome.HALTED: (
         Why.TILTED,

@@ -1,10 +1,17 @@
 """`equipoise simulate`: a record of the simulated bench."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Names, Whole
-from equipoise.app.console.terminal import busy, show_paths
+from equipoise.app.console.terminal import busy, counted, show_paths
 from equipoise.model.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from equipoise.model.recording import Recording
+    from equipoise.model.testbed import Testbed
 
 
 def simulate(
@@ -16,15 +23,19 @@ def simulate(
     plan: Path | None = None,
     move: Names = (),
     seed: Whole = 1,
+    series: Whole | None = None,
 ) -> int:
     """Simulate a platform in free motion or a planned manoeuvre, and write what its sensors record.
+
+    A series is of one platform, each run with a start and noise of its own, as `identify` takes it.
 
     Parameters
     ----------
     testbed
         Testbed file, or a preset's name. Its [truth] says what the simulated platform is like.
     out
-        File to write: .csv, .parquet, .mcap or .mat.
+        File to write: .csv, .parquet, .mcap or .mat. With --series a folder, for run_01.csv and so
+        on.
     duration_s
         Length of the record: 120, or as the plan has it.
     plan
@@ -33,6 +44,8 @@ def simulate(
         Move of masses, "seconds: mass=mm mass=mm", as displacements from home. May be repeated.
     seed
         Seed of all that is drawn: the same seed gives the same record.
+    series
+        Simulate so many runs of the platform that the seed draws; their seeds follow the first.
     """
     from equipoise.app.arguments.checks import positive, seed_of
     from equipoise.app.arguments.inputs import move_of, plan_from, testbed_from
@@ -45,15 +58,42 @@ def simulate(
     planned = None if plan is None else plan_from(plan, bed)
     if planned is not None and (moves or duration_s is not None):
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
-    check_writable(out)
-    with busy("simulating"):
+
+    def made(bed: "Testbed", seed: int) -> "Recording":
         from equipoise.simulation.carried_out import record, simulated
 
-        recording = (
-            record(bed, duration, moves, drawn)
-            if planned is None
-            else simulated(bed, planned.manoeuvre, drawn)
-        )
-        write_recording(recording, out)
+        if planned is None:
+            return record(bed, duration, moves, seed)
+        return simulated(bed, planned.manoeuvre, seed)
+
+    if series is not None:
+        return _series(bed, drawn, int(positive("--series", series)), made, out)
+    check_writable(out)
+    with busy("simulating"):
+        write_recording(made(bed, drawn), out)
     show_paths([out])
+    return 0
+
+
+def _series(
+    bed: "Testbed",
+    seed: int,
+    runs: int,
+    made: "Callable[[Testbed, int], Recording]",
+    out: Path,
+) -> int:
+    """Write the recordings of a series into a folder, all of them or none."""
+    from equipoise.app.arguments.checks import check_outputs
+    from equipoise.app.report.series_files import check_series_folder, recordings_of
+    from equipoise.io.files.atomic_file import write_folder
+    from equipoise.simulation.series import seeds_of, with_drawn_platform
+
+    check_series_folder("--out", out)
+    check_outputs(out)
+    platform, recordings = with_drawn_platform(bed, seed), list["Recording"]()
+    with counted(f"simulating {runs} runs") as progress:
+        for k, each in enumerate(seeds_of(runs, seed), 1):
+            recordings.append(made(platform, each))
+            progress(k / runs)
+    show_paths(write_folder(out, recordings_of(recordings)))
     return 0

@@ -2,6 +2,7 @@
 
 from equipoise.app.text.json_document import (
     ESTIMATE,
+    FINDING,
     NUMBERS,
     PARAMETER,
     REASONS,
@@ -109,6 +110,38 @@ ASSESS = document(
     *fields("before", maybe(shape(*PLATFORM))),
     *fields("over_hours", maybe(OVER_HOURS)),
     *fields("estimate", ESTIMATE),
+)
+
+# How much a run deviates from all together: chi-square in the sd of that difference.
+DEVIATION = shape(*fields("chi_square freedom probability", NUMBER))
+
+ONE_RUN = shape(
+    *fields("name", TEXT),
+    *fields("sha256", TEXT, "recording"),
+    *fields("used", FLAG),
+    *fields("deviation", maybe(DEVIATION)),
+    *fields("findings", many(FINDING)),
+    *fields("estimate", ESTIMATE),
+)
+
+# One parameter over the runs that show it.
+SPREAD = shape(
+    *fields("name unit", TEXT),
+    *fields("runs", COUNT),
+    *fields("mean sd_between sd_stated", NUMBER),
+)
+
+SCATTER = shape(
+    *fields("chi_square freedom probability factor", NUMBER),
+    *fields("parameters=spreads", many(SPREAD)),
+)
+
+IDENTIFY_RUNS = document(
+    "equipoise/identify_runs/1",
+    *fields("verdict", VERDICT),
+    *fields("scatter=joint.scatter", maybe(SCATTER)),
+    *fields("estimate", ESTIMATE),
+    *fields("runs", many(ONE_RUN)),
 )
 
 # What a manoeuvre is expected to show; sd by parameter, SI.

@@ -149,23 +149,32 @@ def too_few(recording: Recording, testbed: Testbed) -> bool:
 
 def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of a record, with its residual on a part that was held out."""
+    return modelled(recording, testbed, params)[1]
+
+
+def modelled(
+    recording: Recording, testbed: Testbed, params: Params
+) -> tuple[RecordModel | None, Estimate]:
+    """Return the model that a record supports, and its estimate; too few rows have no model."""
     recording = arranged(recording, testbed.mass_names)
     if too_few(recording, testbed):
         nothing = outcome(Why.TOO_FEW_ROWS, rows=recording.rows)
-        return Estimate(METHOD, nothing, (), np.zeros((0, 0)))
+        return None, Estimate(METHOD, nothing, (), np.zeros((0, 0)))
     kept, unresolved = without_unresolved_rates(recording, testbed)
     gone = {Why.RATES_UNRESOLVED: unresolved}
     if params.robust:
         kept, gone[Why.OUTLIERS_REMOVED] = without_outliers(kept, testbed, params)
-    found = estimate_of(kept, testbed, params)
+    model, found = modelled_by_all_rows(kept, testbed, params)
     left_out = [Reason(code, (), {"rows": rows}) for code, rows in gone.items() if rows]
-    return replace(found, outcome=Outcome((*found.outcome.reasons, *left_out)))
+    return model, replace(found, outcome=Outcome((*found.outcome.reasons, *left_out)))
 
 
-def estimate_of(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
-    """Return the estimate of rows that are all to be used."""
+def modelled_by_all_rows(
+    recording: Recording, testbed: Testbed, params: Params
+) -> tuple[RecordModel, Estimate]:
+    """Return the model and the estimate of rows that are all to be used."""
     model = with_sure_scale(surveyed(recording, testbed, params))
-    return as_estimate(model, recording, params)
+    return model, as_estimate(model, recording, params)
 
 
 def with_sure_scale(model: RecordModel) -> RecordModel:

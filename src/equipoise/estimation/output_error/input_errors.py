@@ -45,8 +45,18 @@ class Varied(NamedTuple):
     """What is given when one input is off by ``STEP`` of its sd."""
 
     name: str
+    sd: float
     recording: Recording
     testbed: Testbed
+
+
+class InputEffect(NamedTuple):
+    """What an input that is off by one sd changes at an optimum."""
+
+    name: str
+    descent: Floats  # (n,) of the cost, in physical coordinates
+    direct: Floats  # (n,) the point itself in physical coordinates: J_P of a heavier body
+    varied: Fitted  # the same point, the input off by ``STEP``
 
 
 class InputShift(NamedTuple):
@@ -54,7 +64,7 @@ class InputShift(NamedTuple):
 
     name: str
     shift: Floats  # (n,) in physical coordinates
-    varied: Fitted  # the same optimum, the input off by ``STEP``
+    varied: Fitted
 
 
 def scaled(channel: Samples | None, share: float) -> Samples | None:
@@ -73,19 +83,21 @@ def platform_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield mass, gravity, masses on rails, and momentum and torque that no device explains."""
     body, masses = testbed.body, testbed.masses
     heavier = replace(body, mass=body.mass * (1 + STEP * testbed.mass_sd))
-    yield Varied("platform mass", recording, replace(testbed, body=heavier))
+    yield Varied("platform mass", testbed.mass_sd, recording, replace(testbed, body=heavier))
     stronger = testbed.gravity * (1 + STEP * testbed.gravity_sd)
-    yield Varied("gravity", recording, replace(testbed, gravity=stronger))
+    yield Varied("gravity", testbed.gravity_sd, recording, replace(testbed, gravity=stronger))
     for i, mass in enumerate(masses):
         if mass.doubt is None:  # else what a calibration seeks
             other = replace(mass, mass=mass.mass * (1 + STEP * mass.mass_sd))
             rest = replace(testbed, masses=(*masses[:i], other, *masses[i + 1 :]))
-            yield Varied(f"mass {mass.name}", recording, rest)
+            yield Varied(f"mass {mass.name}", mass.mass_sd, recording, rest)
     if recording.devices is None:
-        more = scaled(recording.momentum, STEP * testbed.momentum_sd)
-        yield Varied("momentum", replace(recording, momentum=more), testbed)
-        more = scaled(recording.torque, STEP * testbed.torque_sd)
-        yield Varied("torque", replace(recording, torque=more), testbed)
+        sd = testbed.momentum_sd
+        more = scaled(recording.momentum, STEP * sd)
+        yield Varied("momentum", sd, replace(recording, momentum=more), testbed)
+        sd = testbed.torque_sd
+        more = scaled(recording.torque, STEP * sd)
+        yield Varied("torque", sd, replace(recording, torque=more), testbed)
 
 
 def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
@@ -95,7 +107,7 @@ def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     first = testbed.gyro if camera is None else testbed.attitude
     if first is not None:
         share = STEP * first.clock_sd
-        yield Varied("clock", replace(
+        yield Varied("clock", first.clock_sd, replace(
             recording,
             attitude=stretched(camera, start, share),
             rate=gyro if camera is not None else stretched(gyro, start, share),
@@ -104,8 +116,9 @@ def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
             torque=stretched(recording.torque, start, share),
         ), testbed)  # fmt: skip
     if camera is not None and testbed.gyro is not None:
-        late = stretched(gyro, start, STEP * testbed.gyro.clock_sd)
-        yield Varied("gyro clock", replace(recording, rate=late), testbed)
+        gyro_clock = testbed.gyro.clock_sd
+        late = stretched(gyro, start, STEP * gyro_clock)
+        yield Varied("gyro clock", gyro_clock, replace(recording, rate=late), testbed)
 
 
 def alone(testbed: Testbed, device: Device) -> Testbed:
@@ -133,20 +146,34 @@ def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     for device in testbed.devices:
         single = alone(testbed, device)
         h, tau = stored_momentum(recording, single), known_torque(recording, single)
-        gain = STEP * device.gain_sd * np.eye(3)
-        turns = [STEP * device.mounting_sd * np.cross(axis, AXES).T for axis in AXES]
-        names = [f"gain of {device.name}", *[f"mounting of {device.name}"] * len(AXES)]
-        for name, matrix in zip(names, (gain, *turns), strict=True):
-            momentum = turned_by(h, recording.momentum, matrix)
-            torque = turned_by(tau, recording.torque, matrix)
-            yield Varied(name, replace(recording, momentum=momentum, torque=torque), testbed)
+        changes = [(f"gain of {device.name}", device.gain_sd, AXES)]
+        turns = (np.cross(axis, AXES).T for axis in AXES)
+        changes += [(f"mounting of {device.name}", device.mounting_sd, turn) for turn in turns]
+        for name, sd, matrix in changes:
+            momentum = turned_by(h, recording.momentum, STEP * sd * matrix)
+            torque = turned_by(tau, recording.torque, STEP * sd * matrix)
+            yield Varied(name, sd, replace(recording, momentum=momentum, torque=torque), testbed)
 
 
 def variations(problem: Problem) -> Iterator[Varied]:
     """Yield every input that has an sd."""
     recording, testbed = problem.recording, problem.testbed
     for part in (platform_varied, clocks_varied, devices_varied):
-        yield from part(recording, testbed)
+        yield from (varied for varied in part(recording, testbed) if varied.sd > 0)
+
+
+def input_effects(fitted: Fitted) -> list[InputEffect]:
+    """Return what each input changes at a fit; the same inputs in any record of a testbed."""
+    problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
+    found: list[InputEffect] = []
+    for varied in variations(problem):
+        other = reposed(problem, varied.recording, varied.testbed)
+        descent = evaluate(other, fitted.point, fitted.jumps).descent - fitted.at.descent
+        direct = physical(fitted.point, other.mass, layout) - values
+        at = replace(fitted, problem=other)
+        found.append(InputEffect(varied.name, descent / STEP, direct / STEP, at))
+    return found
 
 
 def input_shifts(fitted: Fitted) -> tuple[InputShift, ...]:
@@ -155,15 +182,9 @@ def input_shifts(fitted: Fitted) -> tuple[InputShift, ...]:
     Of the optimum with all priors, the anchor's too: without it what the data leave open would move
     without bound.
     """
-    problem, layout = fitted.problem, fitted.problem.layout
-    here, covariance = fitted.at.descent, inverse_where(fitted.at.normal, ~problem.prior.held)
-    values = physical(fitted.point, problem.mass, layout)
-    found: list[InputShift] = []
-    for varied in variations(problem):
-        other = reposed(problem, varied.recording, varied.testbed)
-        there = evaluate(other, fitted.point, fitted.jumps).descent
-        direct = physical(fitted.point, other.mass, layout) - values
-        shift = (direct + covariance @ (there - here)) / STEP
-        if np.any(shift) and np.all(np.isfinite(shift)):
-            found.append(InputShift(varied.name, shift, replace(fitted, problem=other)))
-    return tuple(found)
+    covariance = inverse_where(fitted.at.normal, ~fitted.problem.prior.held)
+    every = [
+        InputShift(each.name, each.direct + covariance @ each.descent, each.varied)
+        for each in input_effects(fitted)
+    ]
+    return tuple(s for s in every if np.any(s.shift) and np.all(np.isfinite(s.shift)))

@@ -85,6 +85,29 @@ class EstimateReason(Code):
         "{rows:.0f} gyro rows are left out: masses travelled between the rows of their track.",
     )
 
+    # Of several recordings of one platform
+    FITTED_JOINTLY = (
+        "fitted_jointly",
+        "{count:.0f} runs are fitted jointly: inertia and centre of mass are common to all; "
+        "starts, biases and moves are each run's own.",
+    )
+    RUNS_SCATTERED = (
+        "runs_scattered",
+        "The runs scatter more than their intervals allow: intervals are widened {widening:.2g} "
+        "times.",
+    )
+    RUNS_DISAGREE = (
+        "runs_disagree",
+        "The runs disagree, by {widening:.2g} times what their intervals allow: the platform or "
+        "the bench was not the same in all of them. There is no joint estimate; their means and "
+        "scatter stand by themselves.",
+    )
+    RUNS_LEFT_OUT = "runs_left_out", "Left out, as not usable by themselves: {names}."
+    TOO_FEW_RUNS = (
+        "too_few_runs",
+        "{usable:.0f} of {count:.0f} runs can be used by itself; a joint fit needs two.",
+    )
+
     # Of a centre of mass that drifts
     DRIFTS = (
         "drifts",

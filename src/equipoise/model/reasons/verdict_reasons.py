@@ -23,6 +23,7 @@ UNPASSABLE = (
     "with better sensors."
 )
 TOO_NEAR = "the value is too near to the limit to be sure."
+SCATTER = "(chi-square {chi_square:.3g} of {freedom:.3g} expected, probability {probability:.2g})."
 MISSED = "The requirement of {required:uN m plain} uN m cannot be met:"
 
 
@@ -84,6 +85,30 @@ class VerdictReason(Code):
     INERTIA_UNCERTAIN = (
         "inertia_uncertain",
         "All of it goes with the inertia, which is known to {sd:% .2g} %.",
+    )
+
+    # On whether several runs agree
+    RUNS_AGREE = (
+        "runs_agree",
+        f"Passed: {{count:.0f}} runs scatter no more than their intervals allow {SCATTER}",
+    )
+    RUNS_SCATTER = (
+        "runs_scatter",
+        f"Failed: {{count:.0f}} runs scatter {{factor:.2g}} times as much as their intervals allow "
+        f"{SCATTER}",
+    )
+    RUNS_DEVIATE = "runs_deviate", "Most of it comes from {both}."
+    RUNS_INCOMPARABLE = (
+        "runs_incomparable",
+        "Cannot tell: the {count:.0f} runs show nothing in common.",
+    )
+    RUNS_NOT_FITTED = "runs_not_fitted", "Cannot tell whether runs agree: there is no joint fit."
+
+    # On a series of balancings
+    EVERY_RUN_PASSED = "every_run_passed", "Passed: each of {count:.0f} runs did."
+    SOME_RUNS_FAILED = (
+        "some_runs_failed",
+        "Failed: {failed:.0f} of {count:.0f} runs did not pass, number {names}.",
     )
 
     # On a design
