@@ -19,13 +19,13 @@ def two_swings(t, noise, seed, decay=0.002):
     return np.column_stack([x, y]) + noise * RNG(seed).normal(size=(len(t), 2))
 
 
-def test_two_swings_are_found_with_amplitude_decay_and_direction():
+def test_two_swings_are_found_with_amplitude_decay_and_shape():
     slow, quick = swings(T, two_swings(T, 1e-5, 1))
     assert slow.frequency == pytest.approx(0.05 * (1 + slow.amplitude**2 / 16), rel=2e-3)
     assert slow.decay == pytest.approx(0.002, rel=0.01)
     assert quick.decay == pytest.approx(0.002, rel=0.01)
-    assert np.abs(slow.direction) == pytest.approx([1, 0], abs=1e-3)
-    assert np.abs(quick.direction) == pytest.approx([0, 1], abs=1e-3)
+    assert np.abs(slow.shape) == pytest.approx([1, 0], abs=1e-3)
+    assert np.abs(quick.shape) == pytest.approx([0, 1], abs=1e-3)
     rms = np.sqrt(np.mean(np.exp(-0.004 * T)))
     assert slow.amplitude == pytest.approx(np.radians(3.0) * rms, rel=1e-3)
 

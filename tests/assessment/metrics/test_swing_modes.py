@@ -6,7 +6,7 @@ import pytest
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.assessment.metrics.period import swings
 from equipoise.assessment.metrics.residual_torque import swing_period
-from equipoise.assessment.metrics.swing_modes import across, moment_for, swing_axes, swing_rates
+from equipoise.assessment.metrics.swing_modes import across, moment_for, swing_rates, swing_shapes
 from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.timeline import timeline
 from equipoise.maths.attitude import exponential, to_matrix
@@ -65,7 +65,7 @@ def test_no_height_swings_more_slowly_than_its_spin_lets_it():
 
 def test_the_swing_about_x_moves_the_vertical_along_y():
     """The quick swing is about the axis of the least inertia."""
-    slow, quick = swing_axes(0.02, np.diag([0.3, 0.4, 0.6]), DOWN)
+    slow, quick = swing_shapes(0.02, np.diag([0.3, 0.4, 0.6]), DOWN)
     np.testing.assert_allclose(np.abs(across(DOWN).T @ quick), [0, 1, 0], atol=1e-12)
     np.testing.assert_allclose(np.abs(across(DOWN).T @ slow), [1, 0, 0], atol=1e-12)
 

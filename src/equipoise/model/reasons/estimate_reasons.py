@@ -71,6 +71,11 @@ class EstimateReason(Code):
         "the model does not know, do not trust the numbers.",
     )
     OUTLIERS_REMOVED = "outliers_removed", "{rows:.0f} outlying rows are left out."
+    CROSS_CHECKS_DISAGREE = (
+        "cross_checks_disagree",
+        "But cross-checks at the same inertia disagree by up to {off:.0f} sd ({names}): one of "
+        "them is wrong, do not trust the numbers.",
+    )
 
     # Of a centre of mass that drifts
     DRIFTS = (
