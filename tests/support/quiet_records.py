@@ -13,11 +13,12 @@ from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import AttitudeSensor, Testbed
+from equipoise.model.units import MINUTE
+from equipoise.procedure.identification.assess import AssessOptions, Fit, fit_of
 from tests.oracle import mujoco_bench as oracle
 
 MOMENTS, PRODUCT = np.array([0.028, 0.025, 0.031]), 3e-4  # kg m^2
 LEAN = np.radians(0.2)
-MINUTE = 60.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,3 +89,11 @@ def quiet(seed: int, spin_deg_s: float | None = None, inertia_sd: float = 0.05) 
         body=guess(rng, platform, inertia_sd),
     )
     return Quiet(platform, record, testbed)
+
+
+def lowered(record: Recording, testbed: Testbed, options: AssessOptions) -> Fit:
+    """Return the fit of a record with its centre of mass a fifth lower: wrong, and not said."""
+    estimate, (parameters, covariance) = fit_of(record, testbed, options)
+    standing = estimate.standing[2]
+    lower = tuple(replace(p, value=1.2 * p.value) if p.name == standing else p for p in parameters)
+    return replace(estimate, parameters=lower, covariance=covariance), (lower, covariance)

@@ -136,6 +136,12 @@ ASSESSMENT = _of(
      "np.sum(w * momentum, axis=1)", "assessment/metrics/test_gravity_torque.py"),
     ("metrics/residual_torque.py", "period / 2 * float(", "period * float(",
      "assessment/metrics/test_residual_torque.py"),
+    ("metrics/spin_lines.py", "columns = [wave(k * psi)", "columns = [wave(psi)",
+     "assessment/metrics/test_spin_lines.py"),
+    ("metrics/swing_modes.py", "moment * down + steadying(", "moment * down - steadying(",
+     "assessment/metrics/test_swing_modes.py"),
+    ("metrics/swing_height.py", "np.vdot(shape, each.swing.shape)",
+     "np.dot(shape, each.swing.shape)", "assessment/metrics/test_swing_height.py"),
     ("metrics/torque_range.py", "return weight**2 * np.einsum", "return weight * np.einsum",
      "assessment/metrics/test_torque_range.py"),
     ("record_checks/clock_offset.py", "lateness(camera) - lateness(gyro)",
@@ -203,6 +209,10 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
+    ("identification/cross_checks.py", "if found.off > MOST_OFF else Why.AGREES",
+     "if found.off < MOST_OFF else Why.AGREES", "procedure/identification/test_cross_checks.py"),
+    ("identification/assess.py", "() if estimate.outcome.warns else answers_of",
+     "() if False else answers_of", "procedure/identification/test_cross_checks.py"),
     ("identification/requirement.py", "if found.high <= requirement.limit",
      "if found.value <= requirement.limit", "procedure/identification/test_requirement.py"),
     ("steps/planned_move.py", "(np.abs(change) / speed).max()", "(np.abs(change) / speed).min()",

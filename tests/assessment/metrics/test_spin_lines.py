@@ -25,7 +25,9 @@ def test_lines_lie_at_the_spin_and_its_harmonics():
     """42 deg/s are 0.11667 Hz; a minute separates what is more than 1/120 Hz off."""
     lines = spin_lines(T, np.radians(42.0) * T)
     np.testing.assert_allclose(lines.frequency, [0.11667, 0.23333, 0.35], atol=1e-5)
-    np.testing.assert_allclose(lines.columns[:, 0], np.cos(np.radians(42.0) * T), atol=1e-12)
+    psi = np.radians(42.0) * T
+    waves = [wave(k * psi) for k in (1, 2, 3) for wave in (np.cos, np.sin)]
+    np.testing.assert_allclose(lines.columns, np.transpose(waves), atol=1e-12)
     assert not is_separate(0.11667 + 0.9 / 120, lines, 60.0)
     assert not is_separate(0.35 - 0.9 / 120, lines, 60.0)
     assert is_separate(0.11667 + 1.1 / 120, lines, 60.0)

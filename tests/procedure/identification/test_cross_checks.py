@@ -1,7 +1,5 @@
 """Cross-checks of quiet records made by MuJoCo: what they say, whether they count, what follows."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -12,8 +10,9 @@ from equipoise.model.estimate import COM, Estimate, Parameter
 from equipoise.model.event import Event
 from equipoise.model.outcome import outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason
+from equipoise.model.units import MINUTE
 from equipoise.procedure.identification import assess as assessment
-from equipoise.procedure.identification.assess import AssessOptions, assess, fit_of
+from equipoise.procedure.identification.assess import AssessOptions, assess
 from equipoise.procedure.identification.cross_checks import (
     CheckedFit,
     checked,
@@ -22,7 +21,7 @@ from equipoise.procedure.identification.cross_checks import (
 from equipoise.procedure.identification.swing_metrics import as_one_body, periods, swing_metrics
 from equipoise.procedure.steps.clean_record import sound
 from tests.support import thorough
-from tests.support.quiet_records import MINUTE, quiet
+from tests.support.quiet_records import lowered, quiet
 
 SEEDS = range(thorough.count(30, 4))
 SPIN = 42.0  # deg/s: a turn in 8.57 s
@@ -163,20 +162,13 @@ def test_minutes_of_one_record_agree_within_what_is_shown_and_hold_the_truth():
     assert np.mean(np.abs(off) < 1.96) > (0.92 if thorough.THOROUGH else 0.8)
 
 
-def shifted(record, testbed, options):
-    """Return the fit of a record, its centre of mass a fifth lower than it found."""
-    estimate, (parameters, covariance) = fit_of(record, testbed, options)
-    lower = tuple(replace(p, value=1.2 * p.value) if p.name == "com_z" else p for p in parameters)
-    return replace(estimate, parameters=lower, covariance=covariance), (lower, covariance)
-
-
 def test_a_wrong_fit_that_explains_the_record_meets_no_requirement(monkeypatch):
     case = quiet(1, SPIN)
     wanted = {"require_offset": 1e-3, "require_torque": 1.0}
     right, step = assessed(case.minutes[0], case.testbed, **wanted)
     assert step.verdict.passed
     assert right.estimate.outcome.trust == "trustworthy"
-    monkeypatch.setattr(assessment, "fit_of", shifted)
+    monkeypatch.setattr(assessment, "fit_of", lowered)
     wrong, step = assessed(case.minutes[0], case.testbed, **wanted)
     assert wrong.estimate.outcome.trust == "not_trustworthy"
     assert wrong.judged == ()

@@ -35,7 +35,7 @@ from equipoise.maths.whiteness import spectral_peak
 from equipoise.model.arrays import Complexes, Floats, Series, Series1
 
 MOST = 2  # swings of a platform
-PER_SWING = 6  # unknowns: f, d, and two coefficients of each signal
+SWING_UNKNOWNS = 6  # unknowns: f, d, and two coefficients of each signal
 CHANCE = 1e-4  # chosen: of a swing that noise alone would show
 LEAST_TURNS = 1.0  # periods in the record
 WORTH = 0.02  # of the first swing's amplitude, chosen: a smaller second one is its distortion
@@ -68,7 +68,7 @@ class Tilts(NamedTuple):
 
     def freedom(self, swings: int) -> int:
         """Return the degrees of freedom that so many swings leave."""
-        return self.s.size - 2 * self.fixed.shape[1] - PER_SWING * swings
+        return self.s.size - 2 * self.fixed.shape[1] - SWING_UNKNOWNS * swings
 
 
 def swings(t: Series1, s: Series, lines: SpinLines | None = None) -> tuple[Swing, ...]:
@@ -133,8 +133,8 @@ def is_more(before: float, after: float, freedom: int) -> bool:
     """Say whether a swing's unknowns leave less than noise would let them (F test)."""
     if freedom < 1 or after <= 0:
         return False
-    ratio = (before - after) / PER_SWING / (after / freedom)
-    return bool(fisher.sf(ratio, PER_SWING, freedom) < CHANCE)
+    ratio = (before - after) / SWING_UNKNOWNS / (after / freedom)
+    return bool(fisher.sf(ratio, SWING_UNKNOWNS, freedom) < CHANCE)
 
 
 def is_swing(tilts: Tilts, unknowns: Floats) -> bool:
