@@ -130,12 +130,12 @@ def height_of(hanging: Hanging, fit: CheckedFit) -> Measured:
 
 def judged(metric: Metric, found: Measured, fit: CheckedFit) -> CrossCheck:
     """Return a check with what it comes to."""
-    code, left_out = verdict_on(found, fit)
+    code, left_out = code_for(found, fit)
     numbers = {"distance": found.distance, "sd": found.sd, "off": found.off, "limit": MOST_OFF}
     return CrossCheck(metric, one_reason(code, metric.value, *left_out, **numbers), found)
 
 
-def verdict_on(found: Measured, fit: CheckedFit) -> tuple[Why, tuple[str, ...]]:
+def code_for(found: Measured, fit: CheckedFit) -> tuple[Why, tuple[str, ...]]:
     """Return what a check comes to, and what of the fit's torques it leaves out."""
     left_out = among({p.name for p in fit.estimate.parameters} - set(KNOWN))
     if left_out:
