@@ -49,6 +49,15 @@ SWING = shape(
     *fields("distance_m=distance distance_sd_m=distance_sd", NUMBER),
 )
 
+# What a cross-check found, whether the estimate's trust hangs on it, and whether it contradicts.
+CROSS_CHECK = shape(
+    *fields("metric code", TEXT),
+    *fields("counts disagrees", FLAG),
+    *fields("distance_m=distance distance_sd_m=sd off_sd=off", NUMBER, "found"),
+    *fields("reasons", REASONS),
+    *fields("sentence", TEXT),
+)
+
 COM = shape(
     *fields("value_m=com", VECTOR),
     *fields("covariance_m2=com_covariance covariance_at_inertia_m2=com_unscaled", MATRIX),
@@ -74,6 +83,7 @@ PLATFORM = (
     *fields("torque_in_range=done.torque", TORQUE_IN_RANGE),
     *fields("inertia_sd", NUMBER, "done"),
     Key("metrics", METRICS, lambda found: found),
+    *fields("cross_checks", many(CROSS_CHECK)),
 )
 
 

@@ -107,6 +107,11 @@ class EstimateReason(Code):
         "too_few_runs",
         "{usable:.0f} of {count:.0f} runs can be used by itself; a joint fit needs two.",
     )
+    CROSS_CHECKS_DISAGREE = (
+        "cross_checks_disagree",
+        "But cross-checks at the same inertia disagree by up to {off:.0f} sd ({names}): one of "
+        "them is wrong, do not trust the numbers.",
+    )
 
     # Of a centre of mass that drifts
     DRIFTS = (
