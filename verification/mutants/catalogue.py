@@ -213,7 +213,7 @@ PROCEDURE = _of(
      "procedure/steps/test_verify.py"),
     ("steps/verify.py", "if not knowledge.estimate.outcome.usable:", "if False:",
      "procedure/steps/test_verify.py"),
-    ("steps/tilt_guard.py", "> testbed.tilt_limit", "> 9 * testbed.tilt_limit",
+    ("steps/tilt_guard.py", "rows.t >= since", "rows.t < since",
      "procedure/steps/test_tilt_guard.py"),
 )  # fmt: skip
 

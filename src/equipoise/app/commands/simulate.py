@@ -1,10 +1,14 @@
 """`equipoise simulate`: a record of the simulated bench."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Names, Whole
 from equipoise.app.console.terminal import busy, show_paths
 from equipoise.model.errors import InputError
+
+if TYPE_CHECKING:
+    from equipoise.simulation.bench import SimulatedBench
 
 
 def simulate(
@@ -18,6 +22,9 @@ def simulate(
     seed: Whole = 1,
 ) -> int:
     """Simulate a platform in free motion or a planned manoeuvre, and write what its sensors record.
+
+    A platform that would swing to its stop is let go nearer to where it hangs. One that meets its
+    stop even so, or as a plan or [truth] starts it, is said to, and when.
 
     Parameters
     ----------
@@ -47,13 +54,25 @@ def simulate(
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
     check_writable(out)
     with busy("simulating"):
-        from equipoise.simulation.carried_out import record, simulated
+        from equipoise.simulation.carried_out import bench_for, carried_out, recorded
+        from equipoise.simulation.free_start import freely
 
-        recording = (
-            record(bed, duration, moves, drawn)
-            if planned is None
-            else simulated(bed, planned.manoeuvre, drawn)
-        )
+        if planned is None:
+            bench, recording = freely(bed, drawn, lambda bench: recorded(bench, duration, moves))
+        else:
+            bench = bench_for(bed, planned.manoeuvre, drawn)
+            recording = carried_out(bench, planned.manoeuvre)
         write_recording(recording, out)
+    _show_touches(bench)
     show_paths([out])
     return 0
+
+
+def _show_touches(bench: "SimulatedBench") -> None:
+    """Say when the platform met its stop."""
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.text.run_blocks import finding_items
+    from equipoise.assessment.findings.stop_findings import touch_findings
+
+    spans = [(touch.start, touch.end) for touch in bench.touches]
+    show(finding_items(touch_findings(spans, bench.testbed.tilt_limit)))
