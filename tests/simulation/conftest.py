@@ -36,14 +36,17 @@ def truth():
 
 @pytest.fixture
 def testbed(truth):
-    """Return a maker of testbeds: 10 kg, J = diag(1, 2, 2.5) kg m^2, sensors without noise."""
+    """Return a maker of testbeds: 10 kg, J = diag(1, 2, 2.5) kg m^2, sensors without noise.
+
+    It may turn over: there is no stop.
+    """
 
     def make(com=(0.0, 0.0, 0.0), **changes):
         com = np.array(com)
         body = MassProperties(10.0, com, np.diag([1.0, 2.0, 2.5]))
         start = truth(com=com, inertia_P=body.inertia_P)
         plain = Testbed(
-            "plain", body, 0.1, np.full(3, 1e-4), np.array([0.0, 0.0, 1.0]), 0.5, 9.81,
+            "plain", body, 0.1, np.full(3, 1e-4), np.array([0.0, 0.0, 1.0]), np.pi, 9.81,
             attitude=AttitudeSensor(5.0, 0.0), gyro=Gyro(50.0, 0.0, 0.0), truth=start,
         )  # fmt: skip
         own = changes.pop("truth", {})

@@ -177,7 +177,8 @@ def test_sag_is_part_of_com_unless_it_is_sought():
 
 def test_errors_of_the_trajectory_fit_are_as_large_as_the_bound():
     """Eight records. RMSE / bound of eight numbers or more (0.1 % on both sides): 0.33 to 1.81."""
-    scene = Scene(BED, 60.0, [(30.0, {"x1": 0.05, "z1": -0.05, "z2": -0.05})], Options())
+    free = replace(BED, tilt_limit=np.pi)  # some of these platforms hang beyond the table's stop
+    scene = Scene(free, 60.0, [(30.0, {"x1": 0.05, "z1": -0.05, "z2": -0.05})], Options())
     tasks = [MethodTask(scene, ("trajectory",), seed, metered, False) for seed in range(8)]
     (reported,) = compared_methods(tasks, map).methods
     assert reported.failed == 0

@@ -218,8 +218,6 @@ PROCEDURE = _of(
      "if found.off < MOST_OFF else Why.AGREES", "procedure/identification/test_cross_checks.py"),
     ("identification/assess.py", "() if estimate.outcome.warns else answers_of",
      "() if False else answers_of", "procedure/identification/test_cross_checks.py"),
-    ("identification/requirement.py", "if found.high <= requirement.limit",
-     "if found.value <= requirement.limit", "procedure/identification/test_requirement.py"),
     ("steps/planned_move.py", "(np.abs(change) / speed).max()", "(np.abs(change) / speed).min()",
      "procedure/steps/test_planned_move.py"),
     ("steps/clean_record.py", "if mask.mean() > MOST:", "if mask.mean() > 2 * MOST:",
@@ -228,7 +226,7 @@ PROCEDURE = _of(
      "procedure/steps/test_verify.py"),
     ("steps/verify.py", "if not knowledge.estimate.outcome.usable:", "if False:",
      "procedure/steps/test_verify.py"),
-    ("steps/tilt_guard.py", "> testbed.tilt_limit", "> 9 * testbed.tilt_limit",
+    ("steps/tilt_guard.py", "rows.t >= since", "rows.t < since",
      "procedure/steps/test_tilt_guard.py"),
 )  # fmt: skip
 

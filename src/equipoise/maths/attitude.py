@@ -135,6 +135,15 @@ def tilt(q: Floats, up: Floats) -> Floats:
     return np.arccos(np.clip((to_matrix(q) @ up)[..., 2], -1.0, 1.0))
 
 
+def tilted_at_most(q: Quaternion, up: Vector3, limit: float) -> Quaternion:
+    """Return an attitude turned back about its level axis of tilt to a limit (rad), if beyond."""
+    excess = float(tilt(q, up)) - limit
+    if excess <= 0:
+        return q
+    across = np.cross(to_matrix(q)[2], up)
+    return multiply(q, exponential(-excess * across / np.linalg.norm(across)))
+
+
 def euler321_sd(pitch: Floats, sd: float) -> tuple[Floats, Floats, Floats]:
     """Return the sd of roll, pitch and yaw (rad) of an attitude with one ``sd`` about each axis.
 

@@ -26,6 +26,7 @@ from equipoise.model.weights import Weight, WeightGrid
 
 SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
 PLUMB_SD = math.radians(0.3)  # chosen: a camera levelled by eye, or a floor for the vertical
+AT_STOP = 0.98  # of the tilt limit, chosen: 0.6 deg of 30, three times a camera's noise
 LAG_SD = 0.03  # s, chosen: a soft servo's 25 ms, or a row of a log at 50 Hz
 
 
@@ -150,7 +151,7 @@ class Testbed(Shown):
     inertia_sd: float  # -, relative, one sd
     com_sd: Vector3  # m, one sd
     up: Vector3  # unit vector, the body axis that points up when level
-    tilt_limit: float  # rad
+    tilt_limit: float  # rad, where it meets its stop; pi or more: it may turn over
     gravity: float  # m/s^2
     masses: tuple[SlidingMass, ...] = ()
     attitude: AttitudeSensor | None = None
@@ -176,6 +177,11 @@ class Testbed(Shown):
     def weight(self) -> float:
         """Return m g, N."""
         return self.body.mass * self.gravity
+
+    @property
+    def tilt_at_stop(self) -> float:
+        """Return the tilt (rad) beyond which a measured tilt counts as being at the stop."""
+        return AT_STOP * self.tilt_limit
 
     @property
     def devices(self) -> tuple[Device, ...]:

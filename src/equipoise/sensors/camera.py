@@ -18,7 +18,7 @@ A small change dth of the attitude (body axes), dphi and deta appear as
 
 from typing import NamedTuple
 
-from equipoise.maths.compiled import part
+from equipoise.maths.compiled import kernel, part
 from equipoise.maths.turns import to_body, to_laboratory, turned
 from equipoise.model.arrays import Floats, Triple
 
@@ -91,3 +91,11 @@ def said(q: Floats, sensor: Floats, eta: Triple) -> tuple[float, float, float, f
     x = to_body(q, (sensor[PLUMB], sensor[PLUMB + 1], 0.0))
     leaning = turned(q, x[0], x[1], x[2])
     return turned(leaning, eta[0], eta[1], eta[2])  # pyright: ignore[reportArgumentType]
+
+
+@kernel
+def said_along(q: Floats, forward: Triple, sensor: Floats, out: Floats) -> None:
+    """Write what the camera says of attitudes (n, 4) at the moments of its rows."""
+    for i in range(q.shape[0]):
+        now = seeing(q[i], forward, sensor)
+        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = said(q[i], sensor, now.turn)

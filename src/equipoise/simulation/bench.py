@@ -9,6 +9,8 @@ Rows come at most once: those stamped in (previous read, now], the first read wi
 rows reach back by the sensors' delay, as samples do. A rate that is sampled exactly when a mass
 starts or stops is the rate just before. Before time zero the masses stood at home and the platform
 moved as it must have to be at its first attitude and rate at time zero.
+
+At the tilt limit the platform meets its stop (``simulation.stop``).
 """
 
 from collections.abc import Mapping
@@ -60,6 +62,8 @@ from equipoise.simulation.magnetised import run_magnetised
 from equipoise.simulation.motion import Path
 from equipoise.simulation.noise_torque import extended, forgotten, start_noise, torque_at
 from equipoise.simulation.sensor_errors import misfelt, misread, whole, whole_angles, with_bad_rows
+from equipoise.simulation.stop import NO_STOP, stop_at
+from equipoise.simulation.touches import Noted, Touch, noted
 
 REPORTS = 20.0  # Hz, chosen: how often devices report where no sensor sets the pace
 A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
@@ -85,6 +89,8 @@ class SimulatedBench:
         self.platform = draw_truth(testbed, rng)
         body, truth, masses = self.platform.body, self.platform.truth, self.platform.masses
         self._body = rigid_body(body, testbed.gravity, self.platform.torque)
+        self._stop = stop_at(testbed.up, testbed.tilt_limit)
+        self._touched = Noted()
         self._happens = times([*truth.contacts, *truth.com_steps])
         self._rails = mass_maps(masses)
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
@@ -114,6 +120,7 @@ class SimulatedBench:
         end = self._time if self._time > t[-1] else t[-1] + A_MOMENT
         path = self._follow(np.append(t, end))
         recording = self._recording(t, path, after, since)
+        self._touched = noted(self._touched, t, path.touch, self._time)
         self._advance(t, path)
         return recording
 
@@ -185,6 +192,11 @@ class SimulatedBench:
         """Stamps of the camera's rows so far that are outliers, s."""
         return self._bad
 
+    @property
+    def touches(self) -> tuple[Touch, ...]:
+        """Touches of the stop so far."""
+        return self._touched.touches
+
     def tilt_now(self) -> float:
         """Return the angle between the axis that should point up and the vertical, rad."""
         return float(tilt(self._now[:4], self.testbed.up))
@@ -224,7 +236,8 @@ class SimulatedBench:
         dipole, jets = effects(self.testbed, self._devices, t)
         known = np.hstack([h, torque_at(self._noise, t) + jets, self._real(t), gimbals])
         platform = (self._body, self._maps, self._state, t, known)
-        events = (truth.contacts, truth.com_steps)
+        stop = self._stop if t[-1] > t[0] else NO_STOP
+        events = (stop, truth.contacts, truth.com_steps)
         if self.platform.field_N is None or not dipole.any():
             return run_through(*platform, *events)
         return run_magnetised(*platform, *events, dipole, self.platform.field_N)

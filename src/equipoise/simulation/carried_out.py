@@ -5,6 +5,8 @@ A planned manoeuvre starts with a hand that lets go nearly as planned:
     tilt    the planned lean, with a normal error about each level axis; any heading
     rate    the planned one, with a normal error of each component
 
+The stop lets no hand lean the platform beyond its limit.
+
 What the platform is like is drawn as without a plan; only its start is the plan's.
 """
 
@@ -15,7 +17,13 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.square_waves import inputs_along
-from equipoise.maths.attitude import exponential, leaning, multiply, to_euler321
+from equipoise.maths.attitude import (
+    exponential,
+    leaning,
+    multiply,
+    tilted_at_most,
+    to_euler321,
+)
 from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError
@@ -24,6 +32,7 @@ from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.draw_truth import own_truth
+from equipoise.simulation.free_start import freely
 
 HAND = 9  # chosen: sets the hand's draws apart from the bench's own, which spawn from the seed
 Moves = Sequence[tuple[float, Mapping[str, float]]]
@@ -52,6 +61,7 @@ def let_go(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Testbed:
     """Return the testbed whose truth starts as a hand meets the plan."""
     rng = np.random.default_rng([seed, HAND])
     q, rate = met_start(testbed.up, manoeuvre, rng)
+    q = tilted_at_most(q, testbed.up, testbed.tilt_limit)
     attitude = np.array([float(angle) for angle in to_euler321(q)])
     truth = replace(testbed.truth or own_truth(testbed), attitude=attitude, rate=rate)
     return replace(testbed, truth=truth)
@@ -83,8 +93,11 @@ def carried_out(bench: Bench, manoeuvre: Manoeuvre) -> Recording:
 
 
 def record(testbed: Testbed, duration: float, moves: Moves, seed: int) -> Recording:
-    """Return ``duration`` seconds with masses sent to targets (m) at times (s) in order."""
-    return recorded(SimulatedBench(testbed, seed), duration, moves)
+    """Return ``duration`` seconds with masses sent to targets (m) at times (s) in order.
+
+    The platform is let go so that it meets no stop, where it can be.
+    """
+    return freely(testbed, seed, lambda bench: recorded(bench, duration, moves))[1]
 
 
 def recorded(bench: Bench, duration: float, moves: Moves) -> Recording:

@@ -3,7 +3,7 @@
     com        uniform in the box
     inertia_C  each moment J_ii (1 + e u), products J_ij (1 + e u) + 0.05 e u sqrt(J_ii J_jj),
                u uniform in (-1, 1), drawn again until some body can have it
-    attitude   heading uniform, tilt uniform up to the limit, in any direction
+    attitude   heading uniform, tilt uniform up to the given one or the stop, in any direction
     rate       each component uniform up to the limit
 
 What is given does not change what is drawn for the rest. The errors are laid on the inertia about
@@ -15,8 +15,9 @@ from math import pi
 
 import numpy as np
 
-from equipoise.maths.attitude import exponential, from_euler321, level, multiply
+from equipoise.maths.attitude import exponential, from_euler321, level, multiply, tilt
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
+from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties, from_centre, smallest_second_moment
 from equipoise.model.testbed import SlidingMass, Testbed, TrueDrive, Truth
 from equipoise.model.torque_terms import TERMS
@@ -27,6 +28,7 @@ LITTLE = 0.05  # -, chosen: of the moments' geometric mean, what CAD may miss in
 # Without a truth: the testbed's own body, let go by hand (chosen: as the preset sputnix).
 SMALL_TILT = in_si(3.0, DEG)  # rad
 SMALL_RATE = in_si(0.3, DEG)  # rad/s
+ROUNDING = 1e-6  # rad, chosen: of angles in a file
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,6 +73,17 @@ def draw_attitude(up: Vector3, greatest: float, rng: np.random.Generator) -> Qua
     return multiply(lean_N, multiply(turn_N, level(up)))
 
 
+def given_attitude(euler: Vector3, testbed: Testbed) -> Quaternion:
+    """Return the attitude of roll, pitch and yaw (rad); InputError for one beyond the stop."""
+    q = from_euler321(*euler)
+    lean = float(tilt(q, testbed.up))
+    if lean > testbed.tilt_limit + ROUNDING:
+        where = f"{testbed.source or testbed.name}: truth.attitude_deg"
+        wanted = f"at most platform.tilt_limit_deg = {testbed.tilt_limit / DEG:.4g}, its stop"
+        raise InputError(where, f"a tilt of {lean / DEG:.4g} deg", wanted)
+    return q
+
+
 def field_of(testbed: Testbed) -> Vector3 | None:
     """Return the magnetic field as it really is, T, laboratory axes."""
     if testbed.truth is not None and testbed.truth.field_N is not None:
@@ -98,7 +111,7 @@ def draw_truth(testbed: Testbed, rng: np.random.Generator) -> SimulatedPlatform:
     """Return the platform that ``testbed.truth`` gives, with what it leaves open drawn."""
     truth = testbed.truth or own_truth(testbed)
     com = rng.uniform(truth.com_low, truth.com_high)
-    attitude = draw_attitude(testbed.up, truth.tilt, rng)
+    attitude = draw_attitude(testbed.up, min(truth.tilt, testbed.tilt_limit), rng)
     rate = rng.uniform(-1.0, 1.0, 3) * truth.rate_limit
     inertia_C = draw_inertia(testbed.body.inertia_C, truth.inertia_error, rng)
     com = com if truth.com is None else truth.com
@@ -107,7 +120,7 @@ def draw_truth(testbed: Testbed, rng: np.random.Generator) -> SimulatedPlatform:
         body = MassProperties(body.mass, com, truth.inertia_P)
     return SimulatedPlatform(
         body=body,
-        attitude=attitude if truth.attitude is None else from_euler321(*truth.attitude),
+        attitude=attitude if truth.attitude is None else given_attitude(truth.attitude, testbed),
         rate=rate if truth.rate is None else truth.rate,
         torque=coefficients(dict(truth.torque)),
         masses=real_masses(testbed.masses, truth.drives),

@@ -17,6 +17,7 @@ from equipoise.model.arrays import Floats, Series1, Vector3
 from equipoise.model.defects import ComStep, Contact
 from equipoise.simulation.clock import tick, tick_one
 from equipoise.simulation.motion import Path, in_pieces, run
+from equipoise.simulation.stop import Stop
 
 Event = Contact | ComStep
 
@@ -51,17 +52,18 @@ def run_through(
     y: Floats,
     t: Series1,
     known: Floats,
+    stop: Stop,
     contacts: Sequence[Contact],
     steps: Sequence[ComStep],
 ) -> Path:
     """Return the motion as ``motion.run`` does; events that happen on the way must be nodes."""
     if not contacts and not steps:
-        return run(body, maps, y, t, known)
+        return run(body, maps, y, t, known, stop)
     happens = np.isin(t[1:-1], times([*contacts, *steps]))
 
     def follow(here: Floats, piece: slice) -> Path:
         now = float(t[piece.start])
         start = struck(here, contacts, now)
-        return run(slipped(body, steps, now), maps, start, t[piece], known[piece])
+        return run(slipped(body, steps, now), maps, start, t[piece], known[piece], stop)
 
     return in_pieces([0, *(np.flatnonzero(happens) + 1).tolist(), len(t) - 1], y, follow)

@@ -2,7 +2,7 @@
 
 Every weight has its own mass and every place its own error, drawn once: what is taken off is what
 was put on. Each swing is a simulated bench of its own, whose truth is the platform as loaded; it is
-let go within ``truth.tilt`` of level and caught at the tilt limit, or after ``ENOUGH`` seconds.
+let go within ``truth.tilt`` of level and caught at its stop, or after ``ENOUGH`` seconds.
 """
 
 from dataclasses import replace
@@ -20,7 +20,7 @@ from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.draw_truth import own_truth
 
 ENOUGH = 60.0  # s, chosen: two swings of a platform whose centre of mass is 100 um low
-GLANCE = 1.0  # s, chosen: how soon a person sees that it tilts too far
+GLANCE = 1.0  # s, chosen: how soon a person sees that it lies on its stop
 
 
 class SimulatedHands:
@@ -53,7 +53,7 @@ class SimulatedHands:
         seed = np.random.SeedSequence([self._seed, self._swings]).generate_state(1)[0]
         bench = SimulatedBench(self._as_loaded(), int(seed))
         parts = [bench.read(GLANCE)]
-        while bench.time < ENOUGH and bench.tilt_now() <= self.testbed.tilt_limit:
+        while bench.time < ENOUGH and not bench.touches:
             parts.append(bench.read(GLANCE))
         self._time += bench.time
         return joined(parts)

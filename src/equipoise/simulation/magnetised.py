@@ -16,6 +16,7 @@ from equipoise.model.defects import ComStep, Contact
 from equipoise.simulation.clock import tick
 from equipoise.simulation.events import run_through
 from equipoise.simulation.motion import Path, in_pieces
+from equipoise.simulation.stop import Stop
 
 PIECE = 0.05  # s, chosen: see above
 
@@ -43,6 +44,7 @@ def run_magnetised(
     y: Floats,
     t: Series1,
     known: Floats,
+    stop: Stop,
     contacts: Sequence[Contact],
     steps: Sequence[ComStep],
     dipole: Series3,
@@ -56,6 +58,6 @@ def run_magnetised(
         torqued = known[piece].copy()
         rate = rate_at(body, maps, here, torqued[0])
         torqued[:, 3:6] += magnetic_torque(dipole[piece], field_N, t[piece], here[:4], rate)
-        return run_through(body, maps, here, t[piece], torqued, contacts, steps)
+        return run_through(body, maps, here, t[piece], torqued, stop, contacts, steps)
 
     return in_pieces(edges.tolist(), y, follow)

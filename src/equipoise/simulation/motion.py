@@ -6,7 +6,8 @@ short enough for the fastest of what may happen at their start:
 
     step <= TURN / (|w| + sqrt(g |mu| tr J^-1))     turning, and swinging as a pendulum
 
-so that the motion depends on the nodes alone, not on how they are cut into runs.
+so that the motion depends on the nodes alone, not on how they are cut into runs. A step in which
+the platform meets its stop is cut where it does (``simulation.stop``).
 """
 
 from collections.abc import Callable, Sequence
@@ -20,6 +21,8 @@ from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at
 from equipoise.dynamics.sensitivities import Columns, Inputs, work_for
 from equipoise.maths.compiled import kernel, part
 from equipoise.model.arrays import Floats, Ints, Triple
+from equipoise.simulation.stop import NO_STOP, Stop, is_beyond
+from equipoise.simulation.striking import Course, lay, strike
 
 TURN = 0.0125  # rad, chosen: energy then drifts by less than 1e-9 in ten minutes
 LONGEST = 0.25  # s, chosen
@@ -32,6 +35,13 @@ class Path(NamedTuple):
 
     y: Floats  # (n, 7) attitude, then angular momentum about P in body axes, N m s
     rate: Floats  # (n, 3) rad/s
+    touch: Floats  # (n, 4) of the stop since the node before, zeros if none: first and last time,
+    # s; impulse along laboratory x and y, N m s
+
+
+def path_of(n: int) -> Path:
+    """Return a motion of n nodes to be written."""
+    return Path(np.zeros((n, ROWS)), np.zeros((n, 3)), np.zeros((n, 4)))
 
 
 def in_pieces(edges: Sequence[int], y: Floats, follow: Callable[[Floats, slice], Path]) -> Path:
@@ -39,12 +49,12 @@ def in_pieces(edges: Sequence[int], y: Floats, follow: Callable[[Floats, slice],
 
     ``follow`` returns the motion along a slice of nodes, from the state at its first.
     """
-    nodes = edges[-1] + 1
-    path = Path(np.zeros((nodes, len(y))), np.zeros((nodes, 3)))
+    path = path_of(edges[-1] + 1)
     path.y[0] = y
     for a, b in pairwise(edges):
         part = follow(path.y[a], slice(a, b + 1))
-        path.y[a + 1 : b + 1], path.rate[a + 1 : b + 1] = part.y[1:], part.rate[1:]
+        for whole, piece in zip(path, part, strict=True):
+            whole[a + 1 : b + 1] = piece[1:]
         if a == 0:
             path.rate[0] = part.rate[0]
     return path
@@ -61,22 +71,11 @@ def parts_of(body: Body, now: Now, w: Triple, gap: float) -> int:
     return max(int(np.ceil(steps - 1e-9)), 1)
 
 
-@part
-def lay(
-    t: Floats, known: Floats, node: int, first: float, last: float, t3: Floats, known3: Floats
-) -> None:
-    """Write times and inputs at two shares of a gap into rows 1 and 2."""
-    for row in range(1, 3):
-        share = first if row == 1 else last
-        t3[row] = t[node] + share * (t[node + 1] - t[node])
-        for c in range(known.shape[1]):
-            known3[row, c] = known[node, c] + share * (known[node + 1, c] - known[node, c])
-
-
 @kernel
 def _run(
     body: Body,
     maps: Floats,
+    stop: Stop,
     t: Floats,
     known: Floats,
     owners: Ints,
@@ -84,10 +83,11 @@ def _run(
     y: Floats,
     path: Floats,
     rates: Floats,
+    touch: Floats,
 ) -> None:
-    # Row 0 is time zero, from which drift counts; rows 1 and 2 are the ends of one step.
-    t3, known3 = np.zeros(3), np.zeros((3, known.shape[1]))
+    t3, known3, before = np.zeros(3), np.zeros((3, known.shape[1])), y.copy()
     inputs, work = Inputs(maps, t3, known3, owners, columns), work_for(0)
+    course = Course(body, stop, t, known, inputs, work)
     path[0] = y
     for node in range(t.shape[0] - 1):
         lay(t, known, node, 0.0, 1.0, t3, known3)
@@ -97,20 +97,27 @@ def _run(
             rates[0, 0], rates[0, 1], rates[0, 2] = w
         n = parts_of(body, now, w, t[node + 1] - t[node])
         for j in range(n):
-            lay(t, known, node, j / n, (j + 1) / n, t3, known3)
+            first, last = j / n, (j + 1) / n
+            if n > 1:
+                lay(t, known, node, first, last, t3, known3)
+            before[:] = y
             step(body, inputs, 1, y, work)
+            if is_beyond(stop, y):
+                strike(course, node, first, last, before, y, touch[node + 1])
         now = body_at(body, maps, t3, known3, 1, 1.0)
         w, _ = evaluate(body, now, inputs, 1, 1.0, y, work)
         path[node + 1] = y
         rates[node + 1, 0], rates[node + 1, 1], rates[node + 1, 2] = w
 
 
-def run(body: Body, maps: Floats, y: Floats, t: Floats, known: Floats) -> Path:
+def run(
+    body: Body, maps: Floats, y: Floats, t: Floats, known: Floats, stop: Stop = NO_STOP
+) -> Path:
     """Return the motion from state ``y`` at the first of at least two nodes ``t`` (s).
 
     ``known`` holds, at each node, stored momentum, torque and displacements, as in ``timeline``;
-    nodes may also run backward.
+    nodes may also run backward, where there is no stop.
     """
-    path = Path(np.zeros((len(t), ROWS)), np.zeros((len(t), 3)))
-    _run(body, maps, t, known, NO_OWNERS, NO_COLUMNS, y.copy(), *path)
+    path = path_of(len(t))
+    _run(body, maps, stop, t, known, NO_OWNERS, NO_COLUMNS, y.copy(), *path)
     return path

@@ -96,6 +96,11 @@ class MethodComparison:
     runs: tuple[MethodRun, ...]
     bound: Floats  # root mean square over the records, SI; infinite: one does not show it
 
+    @property
+    def met_stop(self) -> int:
+        """Return in how many records the platform meets its stop."""
+        return len({run.seed for run in self.runs if run.met_stop})
+
 
 def root_mean_square(values: Floats) -> float:
     """Return the root mean square of what is finite, nan of nothing."""

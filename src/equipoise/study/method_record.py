@@ -1,7 +1,8 @@
 """A record for methods to be compared on: one platform of a testbed, its truth, and its bound.
 
-The platform is drawn by the seed within what the testbed's [truth] says, as `equipoise simulate`
-does. Rows are prepared as `equipoise identify` prepares them (``procedure.sound_rows``).
+The platform is drawn by the seed within what the testbed's [truth] says, and let go so that it
+meets no stop where it can be, as `equipoise simulate` does. Rows are prepared as `equipoise
+identify` prepares them (``procedure.sound_rows``).
 
     truth   com with the masses at home when the record begins, com as they stand when it ends, and
             the inertia about P with the masses at home; elastic sag is part of com unless it is
@@ -25,7 +26,7 @@ from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model import sensor_terms
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Vector3, Vector6
 from equipoise.model.estimate import COM, END, INERTIA
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -33,6 +34,7 @@ from equipoise.procedure.steps.clean_record import sound
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.carried_out import Moves, recorded
 from equipoise.simulation.draw_truth import SimulatedPlatform
+from equipoise.simulation.free_start import freely
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,20 +56,25 @@ class JudgedRecord:
     options: Options
     truth: Mapping[str, float]  # by parameter, SI
     bound: Mapping[str, float]  # sd by parameter, SI; infinite: the record does not show it
+    met_stop: bool = False  # the platform did: no method and no bound knows of it
 
 
 def judged_record(scene: Scene, seed: int) -> JudgedRecord:
     """Return the record of a seed; InputError for moves that the platform cannot make."""
-    bench = SimulatedBench(scene.testbed, seed)
     params = params_of(scene.testbed, scene.options)
     sags = bool(set(SAG_TERMS) & set(params.terms))
-    home, inertia = com_of(bench, sags), pack_symmetric(bench.truth().inertia_P)
-    whole = recorded(bench, scene.duration, scene.moves)
+
+    def watched(bench: SimulatedBench) -> tuple[Vector3, Vector6, Recording]:
+        home, inertia = com_of(bench, sags), pack_symmetric(bench.truth().inertia_P)
+        return home, inertia, recorded(bench, scene.duration, scene.moves)
+
+    bench, (home, inertia, whole) = freely(scene.testbed, seed, watched)
     values = map(float, (*home, *com_of(bench, sags), *inertia))
     truth = dict(zip((*COM, *END, *INERTIA), values, strict=True))
     recording, testbed = sound(whole, scene.testbed)
     bound = bounds(recording, testbed, params, bench.platform)
-    return JudgedRecord(recording, testbed, scene.options, truth, bound)
+    met_stop = bool(bench.touches)
+    return JudgedRecord(recording, testbed, scene.options, truth, bound, met_stop)
 
 
 def com_of(bench: SimulatedBench, sags: bool) -> Vector3:

@@ -72,6 +72,7 @@ class MethodRun:
     settled: float | None  # s from the record's beginning
     cost: Cost
     why: str = ""  # of what failed: the main reasons, for a person
+    met_stop: bool = False  # the record's platform did
 
     @property
     def stated(self) -> bool:
@@ -124,7 +125,7 @@ def judged(method: str, seed: int, found: Found, record: JudgedRecord, cost: Cos
     nothing = np.full(len(JUDGED), np.nan)
     if isinstance(found, Failure):
         return MethodRun(method, seed, found.ending, found.why, False, nothing, nothing, bound,
-                         np.nan, None, cost, found.why)  # fmt: skip
+                         np.nan, None, cost, found.why, record.met_stop)  # fmt: skip
     ending: Ending = "done" if found.outcome.usable else "unusable"
     error, sd = nothing.copy(), nothing.copy()
     for k, name in enumerate(names):
@@ -135,7 +136,7 @@ def judged(method: str, seed: int, found: Found, record: JudgedRecord, cost: Cos
     return MethodRun(
         method, seed, ending, found.outcome.sentence, found.outcome.warns, error, sd, bound,
         nees(found, reported, error[np.isfinite(error)]), settled(found, record), cost,
-        sentence_of(found.outcome.reasons[:MAIN]),
+        sentence_of(found.outcome.reasons[:MAIN]), record.met_stop,
     )  # fmt: skip
 
 

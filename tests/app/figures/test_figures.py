@@ -27,6 +27,7 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.procedure.identification.record_courses import fit_motions, tracked_courses
 from equipoise.simulation.bench import SimulatedBench
+from equipoise.simulation.free_start import freely
 
 BED = read_preset("sputnix")
 PNG = b"\x89PNG"
@@ -34,8 +35,7 @@ PNG = b"\x89PNG"
 
 @pytest.fixture(scope="module")
 def pictures():
-    bench = SimulatedBench(BED, seed=1)
-    recording, truth = measured(bench)
+    recording, truth = freely(BED, 1, measured)[1]
     estimate = reference_fit.estimate(recording, BED, trajectory.Params())
     measurements = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
     story = Story(measurements, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)

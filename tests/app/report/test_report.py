@@ -55,14 +55,14 @@ def test_the_demo_writes_every_figure_of_the_paper(folder):
 def test_figures_of_steps_say_where_the_masses_are(folder):
     """Identification states com with the masses at home, as every method does; balance does not.
 
-    The linear method and the fit stand beside each other, by name.
+    Rests, the linear method and the fit stand beside each other, by name.
     """
     page = (folder / "report.html").read_text(encoding="utf-8")
     identified, balanced = page.split("<h2>Balance</h2>")
-    assert identified.count("masses at home, um in body axes, with bars") == 2
+    assert identified.count("masses at home, um in body axes, with bars") == 3
     assert "masses as they stand, um" not in identified
     assert balanced.count("with bars of two standard deviations; shaded: the target") >= 3
-    drawn = (folder / "figures" / "step03_estimate.svg").read_text()
+    drawn = (folder / "figures" / "step04_estimate.svg").read_text()
     assert "momentum_laboratory" in drawn
     assert "trajectory" in drawn
 

@@ -191,14 +191,24 @@ def test_hands_refuse_what_no_stock_allows():
     assert hands.truth().mass == BED.body.mass
 
 
-def test_a_recording_ends_where_the_tilt_limit_is_exceeded():
+def test_a_swing_ends_soon_after_the_platform_meets_its_stop():
     hands = SimulatedHands(half_a_millimetre_off(BED, 1), 1)
-    swing, limit = hands.swing(), np.radians(10)
-    cut = caught(swing, replace(BED, tilt_limit=limit))
+    swing = hands.swing()
+    lean = tilt(swing.attitude.values, BED.up)
+    first = swing.attitude.t[np.flatnonzero(lean > BED.tilt_limit - np.radians(0.2))[0]]
+    assert swing.span[1] < first + 2.0
+    assert lean.max() < BED.tilt_limit + np.radians(0.5)  # five sd of the camera
+
+
+def test_a_recording_ends_where_the_platform_comes_to_its_stop():
+    hands = SimulatedHands(half_a_millimetre_off(BED, 1), 1)
+    narrow, swing = replace(BED, tilt_limit=np.radians(10)), hands.swing()
+    cut = caught(swing, narrow)
     lean = tilt(cut.attitude.values, BED.up)
     assert cut.span[1] < swing.span[1]
-    assert lean[-1] > limit
-    assert np.all(lean[:-1] <= limit)
+    after = swing.attitude.values[len(lean)]
+    assert tilt(after, BED.up) > narrow.tilt_at_stop
+    assert np.all(lean <= narrow.tilt_at_stop)
     assert cut.rate.t[-1] <= cut.attitude.t[-1]
     assert caught(cut, replace(BED, tilt_limit=3.0)) is cut
 

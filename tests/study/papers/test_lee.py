@@ -11,6 +11,7 @@ import pytest
 
 from equipoise.actuators.cmg_steering import NEAR as GIVES_WAY
 from equipoise.estimation.method_contract import Options
+from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.regression.formulations.averaged import as_printed, centred_means
 from equipoise.estimation.regression.formulations.rows import centred
 from equipoise.estimation.regression.linear_method import posed_of
@@ -36,7 +37,7 @@ from equipoise.study.papers.lee import (
     warns,
     with_printed_errors,
 )
-from equipoise.study.papers.lee_course import reported_along, rows_until, turning_from
+from equipoise.study.papers.lee_course import BATCH, DRAWN, courses_of, rows_until, turning_from
 
 BED = read_preset("kau")
 
@@ -44,6 +45,16 @@ BED = read_preset("kau")
 @pytest.fixture(scope="module")
 def slew():
     return slew_from(BED, LARGE, seed=1, duration=20.0)
+
+
+@pytest.fixture(scope="module")
+def courses(slew):
+    return courses_of(slew.recording, with_printed_errors(BED))
+
+
+def whole(formulation, slew):
+    """The rows of the whole record."""
+    return formulation(posed_of(slew.recording, with_printed_errors(BED), Options()))
 
 
 def test_roll_is_a_heading_and_pitch_and_yaw_tilt():
@@ -126,23 +137,33 @@ def recursive_least_squares(rows, first):
     return x / scale
 
 
-def test_the_course_is_that_of_recursive_least_squares(slew):
+def test_the_course_is_that_of_recursive_least_squares(slew, courses):
     """The paper's recursion, written out, ends where all rows at once do."""
-    bed = with_printed_errors(BED)
-    reported = reported_along(as_printed, slew.recording, bed)
-    part = window(slew.recording, turning_from(slew.recording), slew.recording.span[1])
-    rows = rows_until(as_printed(posed_of(part, bed, Options())), reported.t[-1])
-    plain = recursive_least_squares(rows, reported.t[0])
-    assert rows.names == reported.names
-    np.testing.assert_allclose(reported.values[-1], plain, rtol=1e-4)
+    rows = whole(as_printed, slew)
+    plain = recursive_least_squares(rows, turning_from(slew.recording) + BATCH)
+    assert rows.names == courses.printed.names
+    np.testing.assert_allclose(courses.printed.values[-1], plain, rtol=1e-4)
 
 
-def test_indices_are_equations_9_and_10(slew):
+@pytest.mark.parametrize("side", range(len(DRAWN)))
+def test_a_course_ends_at_what_its_method_finds(slew, courses, side):
+    """What a figure shows at its end and what the table says are one estimate."""
+    bed, course = with_printed_errors(BED), courses[side]
+    found = METHODS[DRAWN[side]].run(slew.recording, bed, Options())
+    assert course.t[-1] == pytest.approx(slew.recording.span[1], abs=0.11)
+    np.testing.assert_allclose(course.values[-1], found.values(course.names), rtol=1e-9)
+
+
+def test_a_course_begins_when_the_platform_turns(slew, courses):
+    for course in courses:
+        assert course.t[0] == turning_from(slew.recording) + BATCH
+        assert np.all(np.isfinite(course.values))
+
+
+def test_indices_are_equations_9_and_10(slew, courses):
     """Of the rows up to each time, written out; free constants go first."""
-    bed = with_printed_errors(BED)
-    reported = reported_along(centred_means, slew.recording, bed)
-    part = window(slew.recording, turning_from(slew.recording), slew.recording.span[1])
-    rows = centred(rows_until(centred_means(posed_of(part, bed, Options())), reported.t[10]))
+    reported = courses.corrected
+    rows = centred(rows_until(whole(centred_means, slew), reported.t[10]))
     H, y = rows.A.reshape(-1, 9), rows.b.reshape(-1)
     left = y - H @ np.linalg.lstsq(H, y, rcond=None)[0]
     assert reported.total[10] == pytest.approx(np.linalg.norm(left) / np.linalg.norm(y), rel=1e-6)

@@ -25,6 +25,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 
 AT_HOME = 2e-6  # m, chosen: boards report positions to 1 um
+NOTICED = 1.0  # s, chosen: by then an interlock has stopped what it is to stop
 
 Device = TypeVar("Device")
 
@@ -84,6 +85,12 @@ class EmulatedBench:
                 station.say(message, t)
             if station.line is not None:
                 station.say(b"", t)
+
+    @property
+    def has_fallen(self) -> bool:
+        """Say whether the platform met its stop a while ago: interlocks come first."""
+        touches = self.platform.touches
+        return bool(touches) and self.platform.time - touches[0].start > NOTICED
 
     def catch(self) -> None:
         """Lead the platform back and hold it, until every mass has been away and come home."""

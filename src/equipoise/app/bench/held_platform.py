@@ -15,7 +15,6 @@ from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.camera_and_gyro import camera_rows, gyro_rows
 from equipoise.simulation.clock import samples
 
-CAUGHT = 1.1  # of the tilt limit, chosen: where somebody catches a simulated platform
 RATE = 0.5  # rad/s, chosen: a hand's, slower than what stops a bench
 LEAST = 1e-3  # s, chosen: that any way takes
 

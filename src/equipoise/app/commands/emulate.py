@@ -54,7 +54,6 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
 
 def _run(bench: "EmulatedBench", longest: float) -> None:
     """Run as the clock on the wall does, until then or until Ctrl-C."""
-    from equipoise.app.bench.held_platform import CAUGHT
     from equipoise.hardware.bench.wall_clock import WallClock
     from equipoise.model.units import UM
 
@@ -62,7 +61,7 @@ def _run(bench: "EmulatedBench", longest: float) -> None:
     try:
         while clock.now < longest:
             bench.run(clock.now)
-            if bench.leaning > CAUGHT * bench.platform.testbed.tilt_limit:
+            if bench.has_fallen:
                 bench.catch()
             clock.wait()
     except KeyboardInterrupt:

@@ -8,10 +8,11 @@ from equipoise.app.console.terminal import busy, counted, show_paths
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from equipoise.model.recording import Recording
     from equipoise.model.testbed import Testbed
+    from equipoise.simulation.bench import SimulatedBench
 
 
 def simulate(
@@ -28,6 +29,9 @@ def simulate(
     """Simulate a platform in free motion or a planned manoeuvre, and write what its sensors record.
 
     A series is of one platform, each run with a start and noise of its own, as `identify` takes it.
+
+    A platform that would swing to its stop is let go nearer to where it hangs. One that meets its
+    stop even so, or as a plan or [truth] starts it, is said to, and when.
 
     Parameters
     ----------
@@ -59,18 +63,22 @@ def simulate(
     if planned is not None and (moves or duration_s is not None):
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
 
-    def made(bed: "Testbed", seed: int) -> "Recording":
-        from equipoise.simulation.carried_out import record, simulated
+    def made(bed: "Testbed", seed: int) -> "tuple[SimulatedBench, Recording]":
+        from equipoise.simulation.carried_out import bench_for, carried_out, recorded
+        from equipoise.simulation.free_start import freely
 
         if planned is None:
-            return record(bed, duration, moves, seed)
-        return simulated(bed, planned.manoeuvre, seed)
+            return freely(bed, seed, lambda bench: recorded(bench, duration, moves))
+        bench = bench_for(bed, planned.manoeuvre, seed)
+        return bench, carried_out(bench, planned.manoeuvre)
 
     if series is not None:
         return _series(bed, drawn, int(positive("--series", series)), made, out)
     check_writable(out)
     with busy("simulating"):
-        write_recording(made(bed, drawn), out)
+        bench, recording = made(bed, drawn)
+        write_recording(recording, out)
+    _show_touches([bench])
     show_paths([out])
     return 0
 
@@ -79,7 +87,7 @@ def _series(
     bed: "Testbed",
     seed: int,
     runs: int,
-    made: "Callable[[Testbed, int], Recording]",
+    made: "Callable[[Testbed, int], tuple[SimulatedBench, Recording]]",
     out: Path,
 ) -> int:
     """Write the recordings of a series into a folder, all of them or none."""
@@ -90,10 +98,23 @@ def _series(
 
     check_series_folder("--out", out)
     check_outputs(out)
-    platform, recordings = with_drawn_platform(bed, seed), list["Recording"]()
+    platform = with_drawn_platform(bed, seed)
+    runs_made = list[tuple["SimulatedBench", "Recording"]]()
     with counted(f"simulating {runs} runs") as progress:
         for k, each in enumerate(seeds_of(runs, seed), 1):
-            recordings.append(made(platform, each))
+            runs_made.append(made(platform, each))
             progress(k / runs)
-    show_paths(write_folder(out, recordings_of(recordings)))
+    show_paths(write_folder(out, recordings_of([recording for _, recording in runs_made])))
+    _show_touches([bench for bench, _ in runs_made])
     return 0
+
+
+def _show_touches(benches: "Sequence[SimulatedBench]") -> None:
+    """Say when platforms met their stop."""
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.text.run_blocks import finding_items
+    from equipoise.assessment.findings.stop_findings import touch_findings
+
+    for bench in benches:
+        spans = [(touch.start, touch.end) for touch in bench.touches]
+        show(finding_items(touch_findings(spans, bench.testbed.tilt_limit)))

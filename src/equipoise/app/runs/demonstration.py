@@ -29,6 +29,7 @@ from equipoise.procedure.identification.record_courses import (
     tracked_courses,
 )
 from equipoise.simulation.bench import SimulatedBench
+from equipoise.simulation.free_start import freely
 
 MEASURED = 60.0  # s before and after the move, chosen
 MOVE = {"x1": -10 * MM, "y1": -10 * MM, "z1": -50 * MM}  # m, the paper's section 3
@@ -67,7 +68,7 @@ def run_demo(testbed: Testbed, seed: int, show_step: Callable[[Step], None]) -> 
     show((Heading(f"{testbed.name}, simulated, seed {seed}"),))
     show((Heading("1  Identify: free motion, masses moved half way"),), below=True)
     with busy("simulating"):
-        recording, truth = measured(SimulatedBench(testbed, seed))
+        recording, truth = freely(testbed, seed, measured)[1]
     identifying = watched(identify(recording, testbed, IdentifyOptions()), "identifying")
     steps = list(shown(identifying, show_step))
     estimate = steps[-1].estimate

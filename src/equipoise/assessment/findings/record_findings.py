@@ -3,6 +3,7 @@
 from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.mass_moves import move_findings
 from equipoise.assessment.findings.motion_range import motion_findings
+from equipoise.assessment.findings.stop_findings import stop_findings
 from equipoise.assessment.record_checks.attitude_noise import noise_findings
 from equipoise.assessment.record_checks.clock_offset import offset_findings
 from equipoise.assessment.record_checks.exposure_averaging import averaging_findings
@@ -30,6 +31,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *move_findings(recording),
         *unknown_name_findings("device", recording.device_names, devices),
         *motion_findings(recording.attitude, up),
+        *stop_findings(recording.attitude, testbed),
         *noise_findings(recording.attitude),
         *averaging_findings(recording, sensors[0]),
         *odd_row_findings(recording),

@@ -89,7 +89,7 @@ class Params:
     sweep: Sweep
     lead: float  # m
     short: float  # N m
-    tilt_limit: float  # rad
+    tilt_at_stop: float  # rad
     period: float  # s
 
 
@@ -116,7 +116,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     params = Params(
         m, testbed.body.inertia_P, target, (w / (m * g)) ** 2, 2 * ZETA * w, sweep,
         LEAD * greatest_slew(testbed) * PERIOD + offsets.coarsest_step(testbed),
-        SHORT * capacity(testbed).torque, testbed.tilt_limit, PERIOD,
+        SHORT * capacity(testbed).torque, testbed.tilt_at_stop, PERIOD,
     )  # fmt: skip
     return State(target - testbed.body.com, np.zeros((3, 3))), params
 
@@ -171,7 +171,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     assert isinstance(sample, Sample)  # it requests no measurement
     start = sample.t if state.start is None else state.start
     down = sample.gravity / float(np.linalg.norm(sample.gravity))
-    if -params.sweep.axes[:, 2] @ down < np.cos(params.tilt_limit):
+    if -params.sweep.axes[:, 2] @ down < np.cos(params.tilt_at_stop):
         return state, Command(finished=one_reason(LawReason.TILTED))
     want = wanted(params.sweep, sample.t - start, down, sample.rate)
     own = params.inertia @ sample.rate

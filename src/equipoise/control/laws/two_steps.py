@@ -74,7 +74,7 @@ class Params:
     late: float  # m, off the request: the masses are on their way
     pay: float  # m, of what is owed, in a step
     target: float  # m, along up
-    tilt_limit: float  # rad
+    tilt_at_stop: float  # rad
     rounds: int = ROUNDS
 
 
@@ -125,7 +125,7 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
         gains, method_for(testbed), push_for(testbed),
         int(np.ceil(SETTLED * slowest / PERIOD)), max(quantum, LEAST),
         max(LATE * quantum, NEAR), PAY * greatest_slew(testbed) * PERIOD, float(up @ target),
-        testbed.tilt_limit,
+        testbed.tilt_at_stop,
     )  # fmt: skip
     return State(offsets.across(up) @ testbed.body.com, height), params
 
@@ -142,7 +142,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     if isinstance(sample, Estimate):
         return trimmed(state, sample, params)
     cosine = -params.gains.up @ sample.gravity / params.gains.gravity
-    if float(np.arccos(np.clip(cosine, -1.0, 1.0))) > params.tilt_limit:
+    if float(np.arccos(np.clip(cosine, -1.0, 1.0))) > params.tilt_at_stop:
         return state, Command(finished=one_reason(LawReason.TILTED))
     if state.phase == "follow":
         return follow(state, sample, params)

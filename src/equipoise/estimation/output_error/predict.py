@@ -11,9 +11,10 @@ from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import TURN_PER_STEP, timeline
 from equipoise.estimation.motion.sampled_motion import sampled_motion
-from equipoise.estimation.output_error.problem import errors_of
+from equipoise.estimation.output_error.problem import errors_of, forward_of
 from equipoise.estimation.output_error.trajectory import fastest_rate
 from equipoise.maths.attitude import exponential
+from equipoise.model import sensor_terms
 from equipoise.model.arrays import Floats, Quaternion, Vector3
 from equipoise.model.estimate import ATTITUDE, RATE, Estimate
 from equipoise.model.mass_properties import MassProperties
@@ -21,6 +22,7 @@ from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS
+from equipoise.sensors.camera import said_along
 from equipoise.sensors.timing import measured_at
 
 
@@ -56,13 +58,20 @@ def run(
 
 
 def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> PredictedMotion:
-    """Return what an estimate of the trajectory method says of its own record."""
+    """Return what an estimate of the trajectory method says of its own record.
+
+    Attitudes are those that the camera says, its vertical as the estimate has it.
+    """
     recording = arranged(recording, testbed.mass_names)
     torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
     q0 = exponential(estimate.values(ATTITUDE))
     found = {p.name: p.value for p in estimate.parameters}
-    return run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
+    motion = run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
+    shown = np.empty_like(motion.q)
+    sensor = np.array([found.get(term, 0.0) for term in sensor_terms.TERMS])
+    said_along(motion.q, forward_of(testbed.up), sensor, shown)
+    return motion._replace(q=shown)
 
 
 def before(recording: Recording, testbed: Testbed) -> PredictedMotion:

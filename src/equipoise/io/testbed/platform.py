@@ -48,7 +48,8 @@ class Platform(RecordTable):
     )
     up: Direction | None = Field(None, description="body axis that points up when level")
     tilt_limit_deg: Annotated[float, Field(gt=0, le=180)] = Field(
-        30.0, description="chosen: usual for a table on a hemisphere"
+        30.0,
+        description="where the platform meets its stop; chosen: usual for a table on a hemisphere",
     )
     gravity_m_s2: Positive = Field(9.80665, description="standard gravity")
     mass_sd_percent: NotNegative = Field(

@@ -42,6 +42,17 @@ class FindingReason(Code):
         "gravity does not point down: the median tilt is {tilt:deg .0f} deg; body axis {0} is the "
         "most upright one. Is the laboratory's Z up?",
     )
+    MEETS_STOP = (
+        "meets_stop",
+        "the platform meets its stop, at {limit:deg .3g} deg of tilt, at {t:.4g} s: no estimate "
+        "models that.",
+    )
+    LIES_ON_STOP = (
+        "lies_on_stop",
+        "the platform lies on its stop, at {limit:deg .3g} deg of tilt, from {start:.4g} to "
+        "{end:.4g} s: no estimate models that.",
+    )
+    MORE_TOUCHES = "more_touches", "{count:.0f} further touches of the stop."
     SPIN = (
         "spin",
         "spin about the vertical: {first:deg .4g} deg/s at first, {last:deg .4g} deg/s at last "

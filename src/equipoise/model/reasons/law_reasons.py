@@ -71,4 +71,4 @@ class LawReason(Code):
         "{sd_y:um .3f}, {off_z:um .3f} +/- {sd_z:um .3f}) um off what was wanted.",
     )
     FOLLOWED = "followed", "Masses followed tilt and drift."
-    TILTED = "law_tilted", "Stopped: the platform tilts beyond its limit."
+    TILTED = "law_tilted", "Stopped: the platform tilts to its limit."

@@ -76,6 +76,6 @@ class StepReason(Code):
     TIME_USED_UP = "time_used_up", "The time is used up."
     MOVES_USED_UP = "moves_used_up", "The moves are used up."
     ROUNDS_USED_UP = "rounds_used_up", "The rounds are used up."
-    TILTED = "tilt_limit_exceeded", "The platform tilts beyond its limit."
+    TILTED = "tilt_limit_exceeded", "The platform tilts to its limit."
     NOTHING_REQUIRED = "no_verdict_required", "Nothing is required, so there is no verdict."
     LAW_RAN = "law_ran", "{0} for {duration:.0f} s of bench time:"  # why it ended follows

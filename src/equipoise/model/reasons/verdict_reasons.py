@@ -54,7 +54,7 @@ class VerdictReason(Code):
     NOT_HELD = "not_held", f"Failed: {HOLD}; {{names}} outside the tolerance."
 
     # On a run that was broken off
-    TILTED = "tilted", "Stopped: the platform tilts beyond its limit."
+    TILTED = "tilted", "Stopped: the platform tilts to its limit."
     BENCH_STOPPED = "bench_stopped", "Stopped: {0}."
     STOPPED_BY_HAND = "stopped_by_hand", "Stopped by hand: {0}."
     STOPPED_BY_SIGNAL = "stopped_by_signal", "Stopped by {0}: {1}."

@@ -111,7 +111,7 @@ def reason_to_stop(
 ) -> StepReason | None:
     """Return why to stop now, or None."""
     knowledge = progress.knowledge
-    if tilted(knowledge.recording, bench.testbed):
+    if tilted(knowledge.recording, bench.testbed, began):
         return StepReason.TILTED
     judged = fresh_enough(knowledge, progress.still_since) and not progress.braking
     movable = len(progress.moves) < options.max_moves

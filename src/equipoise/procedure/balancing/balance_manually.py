@@ -90,13 +90,18 @@ def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
 
 
 def caught(recording: Recording, testbed: Testbed) -> Recording:
-    """Return a recording up to where the platform first tilts beyond its limit."""
+    """Return a recording up to the last row before the platform comes to its stop.
+
+    The stop's push lies between that row and the next: no fit should have to explain it.
+    """
     rows = recording.attitude
     if rows is None or not len(rows):
         return recording
-    beyond = np.flatnonzero(tilt(rows.values, testbed.up) > testbed.tilt_limit)
+    beyond = np.flatnonzero(tilt(rows.values, testbed.up) > testbed.tilt_at_stop)
+    if not len(beyond):
+        return recording
     start, _ = recording.span
-    return window(recording, start, float(rows.t[beyond[0]])) if len(beyond) else recording
+    return window(recording, start, float(rows.t[max(beyond[0] - 1, 0)]))
 
 
 def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testbed) -> Progress:

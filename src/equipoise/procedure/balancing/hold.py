@@ -69,8 +69,9 @@ def balance_and_hold(
     Not of holding when balancing ended in a stop for tilt or with an estimate that cannot be used;
     a verdict missed by a little holding can mend.
     """
+    began = bench.time
     knowledge = yield from balance(bench, balancing)
-    tilted_out = tilted(knowledge.recording, bench.testbed)
+    tilted_out = tilted(knowledge.recording, bench.testbed, began)
     if knowledge.estimate.outcome.usable and not tilted_out:
         yield from hold(bench, knowledge, holding)
 

@@ -3,7 +3,7 @@
 Every ``card.period`` seconds the law receives a Sample and its Command is carried out. When it
 requests a measurement, masses and devices rest, the platform swings, and the law receives the
 Estimate. When it has finished, or its time is used up, the platform swings once more and is judged
-by that record alone. A platform that tilts beyond its limit is stopped, with the reason.
+by that record alone. A platform that tilts to its limit is stopped, with the reason.
 """
 
 from collections.abc import Iterator
@@ -25,6 +25,7 @@ from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.law_card import NEEDS, LawCard, Need
+from equipoise.model.reasons.law_reasons import LawReason
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
@@ -41,6 +42,7 @@ from equipoise.procedure.steps.tilt_guard import guarded, tilted
 from equipoise.procedure.steps.verification_swing import watched_swing
 from equipoise.procedure.steps.verify import Aim, verdict
 
+TILTED = (StepReason.TILTED, LawReason.TILTED)  # as the guard says it, and as a law does
 SETTLE = 1.0  # s, chosen: after it the filter's rate and attitude can be used
 
 
@@ -115,7 +117,7 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
         why = reason_to_stop(bench, recording, end)
     ran = one_reason(StepReason.LAW_RAN, law.card.name, duration=bench.time - began)
     yield Step("control", bench.time, (*ran, *why), following=following)
-    if any(reason.code is StepReason.TILTED for reason in why):
+    if any(reason.code in TILTED for reason in why):
         bench.stop()
         yield stop_step(bench)
     else:

@@ -1,8 +1,8 @@
-"""Whether the platform is beyond its tilt limit: checked during and after every record."""
+"""Whether the platform has tilted to its limit: checked during and after every record."""
 
 import numpy as np
 
-from equipoise.maths.attitude import tilt
+from equipoise.assessment.record_checks.at_stop import at_stop
 from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
@@ -20,9 +20,10 @@ def guarded(bench: Bench, duration: float) -> Recording:
     return joined(parts)
 
 
-def tilted(recording: Recording, testbed: Testbed) -> bool:
-    """Say whether the platform tilts beyond its limit; the median of three rows decides."""
+def tilted(recording: Recording, testbed: Testbed, since: float = -np.inf) -> bool:
+    """Say whether the platform has tilted to its limit since a time (s).
+
+    Its stop has pushed it then: no estimate across that is to be relied on.
+    """
     rows = recording.attitude
-    if rows is None or not len(rows):
-        return False
-    return float(np.median(tilt(rows.values[-3:], testbed.up))) > testbed.tilt_limit
+    return rows is not None and bool(at_stop(rows.where(rows.t >= since), testbed).any())

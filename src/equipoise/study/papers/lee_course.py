@@ -5,7 +5,9 @@ At growing times t_j, of all rows up to then:
     x_j = (H^T H)^-1 H^T y,    EI and PEI of the same H and y      (``error_indices``)
 
 Recursive least squares without forgetting (Eq. 8, W = E) that begin with a batch come to the same
-at every t_j. Like theirs it begins where the platform already turns: H is singular at rest.
+at every t_j. Rows are those that the methods themselves solve, from the record's beginning (Eq. 6
+has the rate at time zero), so the last estimate of a course is the method's own. Like theirs the
+first one comes when the platform already turns: H is singular at rest.
 
 Cannot see what biases x: rows are taken to err alike and independently.
 """
@@ -16,18 +18,19 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.method_contract import Options
+from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.regression.error_indices import error_indices
-from equipoise.estimation.regression.formulations.averaged import as_printed, centred_means
-from equipoise.estimation.regression.formulations.rows import Formulation, Rows, centred
-from equipoise.estimation.regression.linear_method import posed_of
+from equipoise.estimation.regression.formulations.rows import Posed, Rows, centred
+from equipoise.estimation.regression.linear_method import linear_of, posed_of, posed_rows
 from equipoise.estimation.regression.solvers.least_squares import flat, solved
 from equipoise.model.arrays import Floats, Series, Series1
 from equipoise.model.errors import InputError
-from equipoise.model.recording import Recording, window
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
+DRAWN = ("averaged_printed", "averaged")  # methods
 TURNING = np.radians(1.0)  # rad/s, chosen: fifty times the gyro's noise
-BATCH = 2.0  # s, chosen: of the first rows, before which nothing is estimated
+BATCH = 2.0  # s, chosen: of rows that turn, before which nothing is estimated
 EVERY = 1.0  # s
 SMOOTHED = 20  # rows of the gyro, to see whether it turns
 
@@ -43,7 +46,7 @@ class Reported(NamedTuple):
 
 
 class Courses(NamedTuple):
-    """The courses of one slew."""
+    """The courses of one slew, in the order of ``DRAWN``."""
 
     printed: Reported  # the rows as the paper has them
     corrected: Reported
@@ -51,8 +54,15 @@ class Courses(NamedTuple):
 
 def courses_of(recording: Recording, testbed: Testbed) -> Courses:
     """Return how estimates grow along a slew; InputError if the platform never turns."""
-    printed = reported_along(as_printed, recording, testbed)
-    return Courses(printed, reported_along(centred_means, recording, testbed))
+    posed, first = posed_of(recording, testbed, Options()), turning_from(recording) + BATCH
+    return Courses(*(reported_along(rows_of(name, posed), first) for name in DRAWN))
+
+
+def rows_of(name: str, posed: Posed) -> Rows:
+    """Return the rows that a linear method solves, by its name."""
+    linear = linear_of(METHODS[name])
+    assert linear is not None
+    return posed_rows(linear, posed, ())[0]
 
 
 def turning_from(recording: Recording) -> float:
@@ -67,12 +77,10 @@ def turning_from(recording: Recording) -> float:
     return float(rate.t[turns[0]])
 
 
-def reported_along(formulation: Formulation, recording: Recording, testbed: Testbed) -> Reported:
-    """Return the course of a formulation's estimates from where the platform turns."""
-    start = turning_from(recording)
-    part = window(recording, start, recording.span[1])
-    rows = formulation(posed_of(part, testbed, Options()))
-    times = np.arange(start + BATCH, rows.t[-1] + 1e-9, EVERY)
+def reported_along(rows: Rows, first: float) -> Reported:
+    """Return the course of estimates from a first time (s) to the last row."""
+    end = float(rows.t[-1])
+    times = np.append(np.arange(first, end, EVERY), end)
     reported = [reported_at(rows, t) for t in times]
     return Reported(
         rows.names, times, *(np.array(column) for column in zip(*reported, strict=True))

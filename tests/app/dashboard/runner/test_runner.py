@@ -1,5 +1,7 @@
 """The runner: what it shows is what the bench gave, what is asked is done, limits hold."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -72,8 +74,11 @@ def test_the_live_estimate_is_that_of_the_whole_recording(nanosat):
 
 
 def test_the_shown_centre_of_mass_moves_with_the_masses(nanosat):
-    """A mass m sent by d along its axis: the platform's centre of mass by m d / M at once."""
-    bench, posterior = SimulatedBench(nanosat, 3), LiveEstimate(nanosat)
+    """A mass m sent by d along its axis: the platform's centre of mass by m d / M at once.
+
+    The move would throw it on its stop, which no tracker models: here it may turn over.
+    """
+    bench, posterior = SimulatedBench(replace(nanosat, tilt_limit=np.pi), 3), LiveEstimate(nanosat)
     mass, observed = nanosat.masses[0], []
     for k in range(200):
         if k == 100:
@@ -190,7 +195,7 @@ def test_a_platform_that_falls_is_caught(room):
     room.until(lambda: room.reported.state["phase"] == "paused", 4000)
     assert "caught" in room.reported.state["note"]
     tilts = room.reported.rows("limits")[:, 1]
-    assert np.nanmax(tilts) > 1.0
+    assert np.nanmax(tilts) == pytest.approx(1.0, abs=0.02)  # at its stop, and not beyond
 
 
 def test_identify_from_the_recorded_rows(room, monkeypatch):

@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from equipoise.app.bench.held_platform import CAUGHT
 from equipoise.app.console.compile_notice import compiler_notices
 from equipoise.app.console.terminal import COMPILING
 from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
@@ -162,9 +161,9 @@ class Runner:
         idle, bed = self.phase == "idle", self.station.testbed
         if not idle or self.station.kind != "simulated" or rows.attitude is None:
             return
-        if tilt(rows.attitude.values[-1], bed.up) > CAUGHT * bed.tilt_limit:
+        if tilt(rows.attitude.values[-1], bed.up) > bed.tilt_at_stop:
             self.phase = "paused"
-            self.note = "The platform was caught: it tilted beyond its limit."
+            self.note = "The platform was caught: it tilted to its limit."
 
     # --- What is done ------------------------------------------------------------------------
 

@@ -12,7 +12,7 @@ from equipoise.app.views.study.law_views import short
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM
-from equipoise.model.units import MEGABYTE, MS, PERCENT, UM
+from equipoise.model.units import DEG, MEGABYTE, MS, PERCENT, UM
 from equipoise.study.compare_methods import MethodComparison, MethodSummary, Ratios, Share
 from equipoise.study.method_run import JUDGED, MethodRun
 from equipoise.study.recommend import advised_method, lacks
@@ -89,8 +89,18 @@ def overview(found: MethodComparison) -> Table:
         (number("wrong"), lambda method: some(method.confident_wrong)),
         (number("warned"), lambda method: some(method.warned)),
         (number("failed"), lambda method: some(method.failed)),
-        notes=(*unscaled, READ, *failures(found)),
+        notes=(*unscaled, READ, *at_stop(found), *failures(found)),
     )
+
+
+def at_stop(found: MethodComparison) -> Iterator[str]:
+    """Yield in how many records the platform meets its stop, if in any."""
+    if found.met_stop:
+        limit = found.scene.testbed.tilt_limit / DEG
+        yield (
+            f"In {found.met_stop} of {len(found.seeds)} records the platform meets its stop, at "
+            f"{limit:.3g} deg of tilt: it hangs too far aside for any start. No method models it."
+        )
 
 
 def cost_table(found: MethodComparison) -> Table:
