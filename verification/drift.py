@@ -18,6 +18,7 @@ from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
+from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
 from equipoise.procedure.steps.planned_move import stops_covariance
 from equipoise.simulation.bench import SimulatedBench
@@ -27,7 +28,7 @@ DRIFT = 1e-6 / 60  # m/s
 HOLD = 1800.0  # s
 LIMIT = 3e-6  # m, per axis
 EVERY = 1.0  # s
-HOLDING = HoldOptions(HOLD)
+HOLDING = HoldOptions(duration=HOLD)
 TERMS = expand(("drift",))
 Array = NDArray[np.float64]
 
@@ -65,6 +66,7 @@ class Run(NamedTuple):
     at: float  # s since the hold began, of the worst
     start: Array  # m, true, from the target, as balancing left it
     sentence: str
+    outcome: VerdictOutcome
 
 
 def drifting(seed: int) -> Testbed:
@@ -98,7 +100,7 @@ def posteriors(steps: Iterator[Step], bench: Watched) -> Iterator[tuple[Step, Ar
 
 def held(hold: float, seed: int) -> Run:
     """Balance and hold the platform of one seed for so long (s)."""
-    holding = HoldOptions(hold)
+    holding = HoldOptions(duration=hold)
     bench = Watched(SimulatedBench(drifting(seed), seed))
     began, moves, last = np.inf, 0, None
     errors, zs = [np.full(3, np.nan)], [np.full(3, np.nan)]
@@ -117,7 +119,8 @@ def held(hold: float, seed: int) -> Run:
     start = np.array(bench.com)[~while_held][-1] - HOLDING.target
     done = bench.time - began >= hold - 1e-6
     z, error = np.array(zs)[1:], np.array(errors)[1:]
-    return Run(seed, done, worst, moves, z, error, at, start, last.sentence)
+    return Run(seed, done, worst, moves, z, error, at, start, last.sentence,
+               last.verdict.outcome)  # fmt: skip
 
 
 def row_of(run: Run) -> Row:

@@ -1,4 +1,7 @@
-"""Verdicts of `assess` on platforms whose truth is known, and its simple looks on MuJoCo's records.
+"""Every verdict against the truth, and the simple looks of `assess` on MuJoCo's records.
+
+Each verdict that can pass has a trial (``verdict_trials``): how often it passes what is wrong,
+fails what is right, and cannot tell. Those of `assess` are judged on poor records besides:
 
 A platform of the preset `sputnix` is drawn with a centre of mass anywhere about P (one in three
 above it), such that its true torque, or its true distance, is a drawn multiple of what is required;
@@ -35,8 +38,11 @@ from equipoise.procedure.identification.swing_metrics import swing_metrics
 from equipoise.procedure.steps.tilt_guard import guarded
 from equipoise.simulation.bench import SimulatedBench
 from tests.oracle import mujoco_bench as oracle
+from verification import balanced
+from verification.balanced import SILENT
 from verification.chance import FULL, RARE
 from verification.result import Result, Row, Spread, at_most, in_turn
+from verification.verdict_trials import TRIALS
 
 PASSED, UNDECIDED = VerdictOutcome.PASSED, VerdictOutcome.UNDECIDED
 FAILED = VerdictOutcome.FAILED
@@ -116,6 +122,24 @@ def most(runs: int) -> float:
     return WRONG if runs >= FULL else float(binom.ppf(1 - RARE, runs, WRONG) / runs)
 
 
+def trial_rows(name: str, seeds: Sequence[int], spread: Spread = in_turn) -> list[Row]:
+    """Return how often the verdict of one trial is wrong, and how often it cannot tell."""
+    trial = TRIALS[name]
+    found = spread(trial.judge, list(seeds)[: max(len(seeds) // trial.cost, 1)])
+    n = len(found)
+    true = np.array([each.true for each in found])
+    passed = np.array([each.outcome == PASSED for each in found])
+    open_to = np.array([each.outcome == UNDECIDED for each in found])
+    failed = ~passed & ~open_to
+    what = f"{name}, {n} seeds"
+    return [
+        at_most(f"{what}: passes what is wrong", float(np.mean(passed & ~true)), most(n), ".1%"),
+        at_most(f"{what}: fails what is right", float(np.mean(failed & true)), most(n), ".1%"),
+        at_most(f"{what}: cannot tell", float(open_to.mean()), balanced.most(SILENT, n), ".1%"),
+        Row(f"{what}: true", f"{true.sum()} of {n}", "", True),
+    ]
+
+
 def swing(seed: int) -> tuple[oracle.OracleRun, Recording, Testbed]:
     """Return two minutes of a random platform's free swing in MuJoCo; every second has a gyro."""
     rng = np.random.default_rng(seed)
@@ -191,12 +215,14 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Judge platforms, and look at records."""
     edge, few = list(seeds)[: max(len(seeds) * 2 // 5, 1)], list(seeds)[: max(len(seeds) // 20, 3)]
     rows = (
-        drawn_rows(seeds, spread)
+        [row for name in TRIALS for row in trial_rows(name, seeds, spread)]
+        + drawn_rows(seeds, spread)
         + edge_rows(edge, spread)
         + measurement_rows(spread(measurements, few))
     )
     claim = (
-        f"Verdicts of `assess` on {len(seeds)} simulated platforms of the preset sputnix, each "
+        "Every verdict that can pass, in uses with records that can decide. Verdicts of `assess` "
+        f"on {len(seeds)} more simulated platforms of the preset sputnix, each "
         f"recorded for a minute or until it tilts beyond its limit, inertia known to 10 %; "
         f"required: {LIMITS[0] * 1e6:g} to {LIMITS[1] * 1e6:g} uN m, truth {MULTIPLES[0]:g} to "
         f"{MULTIPLES[1]:g} times that; {len(edge)} more stand just beyond. Looks: "

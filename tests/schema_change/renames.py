@@ -87,6 +87,7 @@ CHANGE = SchemaChange(
         Added("*", "**.findings.*.code"),
         Added("balance_*", "steps.*.code"),
         Added("assess_*", "required.*.quantity"),
+        Added("assess_*", "**.cross_checks"),
         *(
             Added(case, f"verdict.{key}")
             for case in ("assess_*", "design")

@@ -36,6 +36,9 @@ MODEL = _of("model", *(
 ), (
     "hardware.py", "return self.zero + (-1.0", "return self.zero - (-1.0",
     "hardware/boards/test_tmcl.py",
+), (
+    "criterion.py", "if found.high <= limit", "if found.low <= limit",
+    "statistical/test_verdicts.py",
 ))  # fmt: skip
 
 MATHS = _of(
@@ -136,6 +139,12 @@ ASSESSMENT = _of(
      "np.sum(w * momentum, axis=1)", "assessment/metrics/test_gravity_torque.py"),
     ("metrics/residual_torque.py", "period / 2 * float(", "period * float(",
      "assessment/metrics/test_residual_torque.py"),
+    ("metrics/spin_lines.py", "columns = [wave(k * psi)", "columns = [wave(psi)",
+     "assessment/metrics/test_spin_lines.py"),
+    ("metrics/swing_modes.py", "moment * down + steadying(", "moment * down - steadying(",
+     "assessment/metrics/test_swing_modes.py"),
+    ("metrics/swing_height.py", "np.vdot(shape, each.swing.shape)",
+     "np.dot(shape, each.swing.shape)", "assessment/metrics/test_swing_height.py"),
     ("metrics/torque_range.py", "return weight**2 * np.einsum", "return weight * np.einsum",
      "assessment/metrics/test_torque_range.py"),
     ("record_checks/clock_offset.py", "lateness(camera) - lateness(gyro)",
@@ -203,8 +212,12 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
-    ("identification/requirement.py", "if found.high <= requirement.limit",
-     "if found.value <= requirement.limit", "procedure/identification/test_requirement.py"),
+    ("balancing/hold_verdict.py", "each.low if failing else each.high", "each.low",
+     "procedure/balancing/test_hold_verdict.py"),
+    ("identification/cross_checks.py", "if found.off > MOST_OFF else Why.AGREES",
+     "if found.off < MOST_OFF else Why.AGREES", "procedure/identification/test_cross_checks.py"),
+    ("identification/assess.py", "() if estimate.outcome.warns else answers_of",
+     "() if False else answers_of", "procedure/identification/test_cross_checks.py"),
     ("steps/planned_move.py", "(np.abs(change) / speed).max()", "(np.abs(change) / speed).min()",
      "procedure/steps/test_planned_move.py"),
     ("steps/clean_record.py", "if mask.mean() > MOST:", "if mask.mean() > 2 * MOST:",

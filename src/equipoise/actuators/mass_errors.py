@@ -2,19 +2,29 @@
 
     d_i(t) = d_i,log(t) + sum_j a_ij(t) x_j
 
-One unknown x_j may act on one mass (where it stopped: ``stops``), on several (how late they follow
-their commands: ``lags``), or along rails of its own (``drive_errors``). d_i is a displacement along
-one of the ``rails``: the masses' own, and those across drives in doubt.
+One unknown x_j may act on one mass (where it stopped: ``stops``; when it travelled between rows:
+``travel_times``), on several (how late they follow their commands: ``lags``), or along rails of its
+own (``drive_errors``). d_i is a displacement along one of the ``rails``: the masses' own, and those
+across drives in doubt.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.drive_errors import ACROSS, GAIN, drive_errors, plays, rails_of
+from equipoise.actuators.drive_errors import (
+    ACROSS,
+    BACKLASH,
+    GAIN,
+    PLAY,
+    drive_errors,
+    plays,
+    rails_of,
+)
 from equipoise.actuators.lags import LAG, command_columns, kinds_of, lag_errors, lag_times, sags
 from equipoise.actuators.lost_motion import command_times
 from equipoise.actuators.stops import stop_errors
+from equipoise.actuators.travel_times import ARRIVAL, DEPARTURE, bends, open_travels, travel_errors
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -32,23 +42,39 @@ class MassErrors:
 
 
 def unit_of(name: str) -> str:
-    """Return the SI unit of an unknown: of a lag, a gain, a rail across; else a displacement's."""
+    """Return the SI unit of an unknown: of a time, a gain, a rail across; else a displacement's."""
     if name.startswith(LAG):
         return "s"
-    return {GAIN: "1", ACROSS: "rad"}.get(name.split("_")[0], "m")
+    units = {GAIN: "1", ACROSS: "rad", DEPARTURE: "s", ARRIVAL: "s"}
+    return units.get(name.split("_")[0], "m")
 
 
-def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassErrors:
-    """Return the unknowns of a recording: stops, lags of kinds of drives, drives in doubt."""
+def is_of_drive(name: str) -> bool:
+    """Say whether an unknown is a property of a drive: the same in every recording of a bench."""
+    return name.startswith(LAG) or name.split("_")[0] in (GAIN, ACROSS, BACKLASH, PLAY)
+
+
+def mass_errors(
+    track: Samples | None, masses: tuple[SlidingMass, ...], least: float = 0.0
+) -> MassErrors:
+    """Return the unknowns of a recording: stops, lags of drives, times of travels, drives in doubt.
+
+    Times of travels that change the time integral of a first moment by ``least`` (kg m s) or less
+    are as recorded.
+    """
     if track is None or not len(track):
         return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
     commands = command_columns(track, masses)
     kinds = kinds_of(commands, masses)
     late = lag_times(track, [sd for sd, kind in kinds.items() if kind])
     taken_up = plays(track, masses)
-    t = np.unique(np.concatenate([late, *(play.t for play in taken_up.values())]))
+    travels = [open_travels(track, i, mass, least) for i, mass in enumerate(masses)]
+    bent = [t for found in travels for t in bends(track, found)]
+    t = np.unique(np.concatenate([late, *bent, *(play.t for play in taken_up.values())]))
     gone = [command_times(taken_up.get(i), t) for i in range(len(masses))]
     found = [*stop_errors(gone, track, masses), *lag_errors(t, track, kinds)]
+    for i, (mass, each) in enumerate(zip(masses, travels, strict=True)):
+        found += travel_errors(t, track, i, mass.name, each)
     found += drive_errors(t, track, masses, taken_up)
     columns: list[Series1] = [column for each in found for _, column in each.response]
     pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.response]

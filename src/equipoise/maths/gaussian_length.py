@@ -13,6 +13,7 @@ errors small beside m both are m's own 95 % interval. ``low`` is a trust-region 
 P = C C^T, u in a ball, minimise |A (m + C u)|^2, whose answer is u(l) = -(M + l E)^-1 g.
 """
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -44,6 +45,7 @@ def root_of(covariance: Square) -> Floats:
     return vectors * np.sqrt(np.maximum(values, 0.0))
 
 
+@cache
 def normal_points(size: int) -> Floats:
     """Return points (n, size) spread evenly as N(0, E); always the same."""
     return ndtri(Sobol(size, scramble=False).fast_forward(1).random(2**POINTS - 1))

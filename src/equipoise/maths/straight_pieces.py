@@ -9,10 +9,14 @@ distance from all rows,
 because chords lie on one side of a bend, and what is summed over many bends must not.
 """
 
+from itertools import pairwise
+
 import numpy as np
 from scipy.linalg import solveh_banded
 
 from equipoise.model.arrays import Bools, Floats, Ints, Series, Series1
+
+NONE: Ints = np.zeros(0, dtype=np.int64)
 
 
 def off_chord(t: Series1, v: Series, first: int, last: int) -> Floats:
@@ -21,11 +25,12 @@ def off_chord(t: Series1, v: Series, first: int, last: int) -> Floats:
     return np.abs(v[first + 1 : last] - v[first] - share[:, None] * (v[last] - v[first]))
 
 
-def knots(t: Series1, v: Series, tolerance: Floats) -> Ints:
+def knots(t: Series1, v: Series, tolerance: Floats, firm: Ints = NONE) -> Ints:
     """Return the rows between which straight lines are nowhere off by more than ``tolerance``."""
     keep: Bools = np.zeros(len(t), dtype=bool)
     keep[[0, -1]] = True
-    open_pieces = [(0, len(t) - 1)]
+    keep[firm] = True
+    open_pieces = list(pairwise(np.flatnonzero(keep).tolist()))
     while open_pieces:
         first, last = open_pieces.pop()
         if last - first < 2:
@@ -51,9 +56,14 @@ def nearest_values(t: Series1, v: Series, at: Ints) -> Floats:
     return solveh_banded(band, np.column_stack(right))
 
 
-def straight_pieces(t: Series1, v: Series, tolerance: Floats) -> tuple[Series1, Series]:
-    """Return times and values of fewer rows; ``tolerance`` is one number a column."""
+def straight_pieces(
+    t: Series1, v: Series, tolerance: Floats, firm: Ints = NONE
+) -> tuple[Series1, Series]:
+    """Return times and values of fewer rows; ``tolerance`` is one number a column.
+
+    The rows ``firm`` are knots.
+    """
     if len(t) < 3:
         return t, v
-    at = knots(t, v, tolerance)
+    at = knots(t, v, tolerance, firm)
     return t[at], np.ascontiguousarray(nearest_values(t, v, at))

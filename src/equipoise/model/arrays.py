@@ -1,6 +1,6 @@
 """Names for array shapes.
 
-Time comes first in a series. Everything is float64. The shapes are checked at run time in the
+Time comes first in a series. Everything real is float64. The shapes are checked at run time in the
 tests only; for the reader and the type checker they are plain arrays.
 """
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
+Complexes = NDArray[np.complex128]
 
 # What compiled functions pass to each other.
 Triple = tuple[float, float, float]

@@ -39,6 +39,8 @@ class ReactionWheel:
     speed: float = 0.0  # rad/s, at the start
     speed_noise: float = 0.0  # rad/s, one sd of a tachometer row
     lag: float = 0.0  # s
+    gain_sd: float = 0.0  # -, of its inertia, relative, one sd; 0: exact
+    mounting_sd: float = 0.0  # rad, of its axis about each direction across, one sd; 0: exact
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,6 +62,8 @@ class ControlMomentGyro:
     lag: float = 0.0  # s
     gimbal_inertia: float = 0.0  # kg m^2, of all that turns with the gimbal, about g
     asymmetry: float = 0.0  # kg m^2, the same about the spin axis less about the third axis
+    gain_sd: float = 0.0  # -, of its momentum, relative, one sd; 0: exact
+    mounting_sd: float = 0.0  # rad, of both its axes about each direction across, one sd; 0: exact
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,6 +74,8 @@ class Magnetorquer:
     axis: Vector3  # unit vector, body
     max_dipole: float  # A m^2
     lag: float = 0.0  # s
+    gain_sd: float = 0.0  # -, of its dipole, relative, one sd; 0: exact
+    mounting_sd: float = 0.0  # rad, of its axis about each direction across, one sd; 0: exact
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,6 +87,8 @@ class JetPair:
     torque: float  # N m, while on
     min_pulse: float = 0.0  # s, least time on
     lag: float = 0.0  # s
+    gain_sd: float = 0.0  # -, of its torque, relative, one sd; 0: exact
+    mounting_sd: float = 0.0  # rad, of its axis about each direction across, one sd; 0: exact
 
 
 @dataclass(frozen=True, slots=True, eq=False)

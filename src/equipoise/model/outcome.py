@@ -49,6 +49,7 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.TRACKER_INNOVATIONS_TOO_LARGE,
         Why.TOO_MANY_ROWS_REJECTED,
         Why.GYRO_MIRRORED,
+        Why.RUNS_DISAGREE,
     ),
     OutcomeCode.IMPOSSIBLE: (Why.IMPOSSIBLE_INERTIA, Why.FILTER_DIVERGED),
     OutcomeCode.NOT_CONVERGED: (Why.NOT_CONVERGED,),
@@ -65,9 +66,10 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.NO_GYRO,
         Why.NO_KNOWN_INPUT,
         Why.INERTIA_TOO_UNCERTAIN,
+        Why.TOO_FEW_RUNS,
     ),
 }
-WIDENED = (Why.COLOURED_RESIDUAL, Why.RESIDUAL_LARGE)
+WIDENED = (Why.COLOURED_RESIDUAL, Why.RESIDUAL_LARGE, Why.RUNS_SCATTERED)
 NOT_TRUSTWORTHY = (
     Why.BIAS_BY_NOISE,
     Why.BIAS_BY_SMOOTHING,
@@ -75,6 +77,7 @@ NOT_TRUSTWORTHY = (
     Why.GYROSCOPIC_TORQUE_LEFT_OUT,
     Why.SWINGS_AT_REST,
     Why.RESTS_DISAGREE,
+    Why.CROSS_CHECKS_DISAGREE,
 )
 
 

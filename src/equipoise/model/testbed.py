@@ -60,6 +60,7 @@ class SlidingMass:
     sag_sd: float = SAG_SD  # m, one sd of how far it hangs below a command, rail upright; 0: stiff
     gain: float = 1.0  # -, first moment given over that stated, mass * command
     doubt: DriveDoubt | None = None  # not of a file: a calibration's own; None: as stated
+    mass_sd: float = 0.0  # -, relative, one sd; 0: exact
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,6 +72,7 @@ class AttitudeSensor:
     delay: float = 0.0  # s
     averaging: float = 0.0  # s
     quantum: float = 0.0  # rad, roll, pitch and yaw come in multiples of it; 0: as they are
+    clock_sd: float = 0.0  # -, relative, of the rate of its clock, one sd; 0: exact
     plumb_sd: float = PLUMB_SD  # rad, how far its vertical may lean from gravity's; 0: it does not
 
 
@@ -84,6 +86,7 @@ class Gyro:
     delay: float = 0.0  # s
     averaging: float = 0.0  # s
     quantum: float = 0.0  # rad/s, rates come in multiples of it; 0: as they are
+    clock_sd: float = 0.0  # -, relative, of the rate of its clock, one sd; 0: exact
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,6 +168,10 @@ class Testbed(Shown):
     weights: tuple[Weight, ...] = ()  # to be placed by hand
     grids: tuple[WeightGrid, ...] = ()  # where they can be placed
     hardware: Hardware | None = None  # what is connected; None: nothing, it can be simulated
+    mass_sd: float = 0.0  # -, of all that floats, relative, one sd; 0: exact
+    gravity_sd: float = 0.0  # -, relative, one sd; 0: exact
+    momentum_sd: float = 0.0  # -, of momentum recorded as such, relative, one sd; 0: exact
+    torque_sd: float = 0.0  # -, of torque recorded as such, relative, one sd; 0: exact
 
     @property
     def weight(self) -> float:

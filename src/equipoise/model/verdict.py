@@ -1,49 +1,39 @@
-"""A verdict: a claim about the platform, tested on fresh data."""
+"""A verdict: a claim about the platform, tested on fresh data.
+
+It passes by the rule of ``model.criterion`` alone. It fails by that rule too, or where data
+contradict what the claim rests on: a misfit, a move that led elsewhere.
+"""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 
 from equipoise.model.arrays import Vector3
+from equipoise.model.criterion import CRITERIA, VerdictOutcome
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.reasons.reason import Coded, Reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 
-
-class VerdictOutcome(StrEnum):
-    """What a claim came to; of several, the last of this list counts."""
-
-    PASSED = "passed"
-    UNDECIDED = "undecided"
-    FAILED = "failed"
-    HALTED = "halted"  # the run was broken off, for safety
-
-
 OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
     VerdictOutcome.PASSED: (
-        Why.WITHIN_TOLERANCE,
-        Why.HELD,
-        Why.TORQUE_MET,
-        Why.OFFSET_MET,
+        *(each.proven for each in CRITERIA),
         Why.NOTHING_REQUIRED,
-        Why.REQUIREMENT_MET,
+        Why.RUNS_AGREE,
+        Why.EVERY_RUN_PASSED,
     ),
     VerdictOutcome.UNDECIDED: (
-        Why.TOO_UNCERTAIN,
+        *(each.undecided for each in CRITERIA),
         Why.ESTIMATE_UNUSABLE,
-        Why.TORQUE_UNDECIDED,
-        Why.OFFSET_UNDECIDED,
+        Why.RUNS_INCOMPARABLE,
+        Why.RUNS_NOT_FITTED,
     ),
     VerdictOutcome.FAILED: (
-        Why.OUTSIDE_TOLERANCE,
+        *(each.refuted for each in CRITERIA),
         Why.RECORD_MISFITS,
         Why.MOVE_MISSED,
-        Why.NOT_HELD,
-        Why.TORQUE_EXCEEDED,
-        Why.OFFSET_EXCEEDED,
         Why.OUT_OF_REACH,
         Why.MET_BY_ONE_CHANGE,
-        Why.MET_BY_NO_CHANGE,
+        Why.RUNS_SCATTER,
+        Why.SOME_RUNS_FAILED,
     ),
     VerdictOutcome.HALTED: (
         Why.TILTED,

@@ -46,7 +46,7 @@ class LawSummary:
     halted: int  # broken off, for safety
     late: int  # not broken off, but out of time
     within: int  # of the runs, with no more torque than required, following or else standing
-    false_passes: int  # verdict passed, truth outside twice the tolerance
+    false_passes: int  # verdict passed, truth outside the tolerance
     aside: Middle  # m, horizontal offset from the target
     height: Middle  # m, |vertical offset|
     torque: Middle  # N m, rms over the tilt range, masses standing
@@ -100,7 +100,7 @@ def summary(runs: Sequence[LawRun], up: Vector3, required: float, near: Vector3)
     followed = np.array([run.followed for run in runs if run.followed is not None])
     left = np.array([run.left for run in runs])
     passed = np.array([run.verdict.passed for run in runs])
-    beyond = np.any(np.abs(offset) > 2 * near, axis=1)
+    beyond = np.any(np.abs(offset) > near, axis=1)
     return LawSummary(
         law=runs[0].law,
         runs=len(runs),

@@ -10,6 +10,7 @@ import equipoise as eq
 from tests.support import thorough
 
 MOVES = [(15.0, {"z1": -0.050})]
+SHORT = {"duration": 30.0, "moves": MOVES}
 LINEAR = "momentum_laboratory"
 
 
@@ -38,6 +39,7 @@ def returned(tmp_path_factory) -> Returned:
         "Testbed": bed,
         "MassProperties": bed.body,
         "identify": eq.identify(path, bed, method=LINEAR),
+        "identify several": eq.identify(eq.simulate(bed, **SHORT, series=3), bed),
         "assess": eq.assess(recording, "sputnix", require_torque=1e-2),
         "observe": eq.observe(recording, bed),
         "design": eq.design(bed, durations=[60.0]),

@@ -20,8 +20,10 @@ from tests.support.synthetic_runs import comparison, made_up
 MOST_LINES = 12
 WIDEST = 1000  # letters of a line; the longest holds one sentence
 KINDS = ("Recording", "Testbed", "MassProperties", "Estimate", "identify", "assess", "observe",
-         "design", "balance", "plan", "compare", "methods", "laws")  # fmt: skip
-DRAWN = ("Recording", "MassProperties", "Estimate", "identify", "assess", "design", "balance")
+         "design", "balance", "plan", "compare", "methods", "laws",
+         "identify several")  # fmt: skip
+DRAWN = ("Recording", "MassProperties", "Estimate", "identify", "assess", "design", "balance",
+         "identify several")  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -58,6 +58,31 @@ def test_simulate_writes_what_its_command_writes(returned, equipoise):
     assert returned.recording.read_bytes() == Path("again.csv").read_bytes()
 
 
+def test_a_series_is_what_its_command_writes_and_begins_with_the_run_of_its_seed(
+    returned, equipoise
+):
+    words = ["simulate", "sputnix", "--duration-s", "30", "--move", "15: z1=-50", "--out", "runs"]
+    assert equipoise(*words, "--series", "3").code == 0
+    files = sorted(Path("runs").iterdir())
+    assert [file.name for file in files] == ["run_01.csv", "run_02.csv", "run_03.csv"]
+    assert files[0].read_bytes() == returned.recording.read_bytes()
+    ours = [run.recording for run in returned.results["identify several"].runs]
+    for file, recording in zip(files, ours, strict=True):
+        assert np.array_equal(eq.read_recording(file).attitude.values, recording.attitude.values)
+
+
+def test_several_recordings_give_the_numbers_of_the_command(returned, equipoise, strict_json):
+    words = ["simulate", "sputnix", "--duration-s", "30", "--move", "15: z1=-50", "--out", "runs"]
+    equipoise(*words, "--series", "3")
+    files = sorted(Path("runs").iterdir())
+    printed = strict_json(equipoise("identify", *files, "--testbed", "sputnix", "--json").out)
+    ours = json.loads(json.dumps(returned.results["identify several"].to_dict()))
+    for key in ("verdict", "scatter"):
+        assert ours[key] == printed[key]
+    assert ours["estimate"]["parameters"] == printed["estimate"]["parameters"]
+    assert [run["used"] for run in printed["runs"]] == [True] * 3
+
+
 def test_calibrate_gives_the_numbers_of_its_command(returned, equipoise, strict_json):
     words = f"calibrate {returned.recording} --testbed sputnix --reference z1 --json"
     printed = strict_json(equipoise(*words.split()).out)

@@ -3,6 +3,8 @@
 import pytest
 
 from equipoise.app.cli import run
+from equipoise.procedure.identification import assess as assessment
+from tests.support.quiet_records import lowered
 
 
 @pytest.fixture(scope="module")
@@ -75,6 +77,31 @@ def test_two_recordings_are_compared_and_the_document_holds_both(
     assert (folder / "assess.json").exists()
     drawn = {path.stem for path in folder.glob("figures/*.png")}
     assert {"torque_in_range", "residual_torque", "swing_spectrum"} <= drawn
+
+
+def test_cross_checks_are_shown_and_one_that_disagrees_ends_with_one(
+    records, tmp_path, capsys, strict_json, monkeypatch
+):
+    """The fit put a fifth lower: torque knows the height to 1 %."""
+    assert assess(records[1]) == 0
+    text = capsys.readouterr().out
+    assert "Cross-check, torque: " in text
+    assert "It counts, and agrees." in text
+    monkeypatch.setattr(assessment, "fit_of", lowered)
+    folder = tmp_path / "out"
+    assert assess(records[1], "--out", str(folder)) == 1
+    text = " ".join(capsys.readouterr().out.split())
+    assert "It counts, and disagrees." in text
+    assert "Cannot tell: " in text
+    assert "cross-checks at the same inertia disagree by up to" in text
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert "It counts, and disagrees." in page
+    assert assess(records[1], "--json") == 1
+    document = strict_json(capsys.readouterr().out)
+    assert document["estimate"]["outcome"]["trust"] == "not_trustworthy"
+    checks = {check["metric"]: check for check in document["cross_checks"]}
+    assert (checks["torque"]["counts"], checks["torque"]["disagrees"]) == (True, True)
+    assert checks["torque"]["off_sd"] > 5
 
 
 @pytest.mark.parametrize(

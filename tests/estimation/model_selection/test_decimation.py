@@ -18,14 +18,15 @@ from equipoise.estimation.model_selection.decimation import (
     turned,
 )
 from equipoise.estimation.model_selection.dense_record import first_gap, moved, with_noise_of
-from equipoise.estimation.model_selection.survey import cut_times, examined, survey
+from equipoise.estimation.model_selection.survey import survey
 from equipoise.estimation.output_error.problem import quickest_swing
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
 from equipoise.maths.attitude import difference, exponential
+from equipoise.model.estimate import BODY
 from equipoise.model.recording import Recording, Samples
 from equipoise.sensors.timing import measured_at, spread_of
-from tests.support.builders import move_at, noisy, platform, recording
+from tests.support.builders import COM, INERTIA, move_at, noisy, platform, recording
 from tests.support.outcomes import codes_of
 
 LATE = replace(platform().attitude, rate=100.0, delay=0.3, averaging=0.2)
@@ -191,12 +192,24 @@ def astray(record, testbed):
     return settle(problem, point, None, 3)
 
 
-def test_a_search_gone_astray_is_an_outcome(monkeypatch):
-    """Its information has no inverse: nothing settled, and nothing is reported about the record."""
+def test_a_search_gone_astray_is_found_again_from_the_measured_states(monkeypatch):
+    """Its cost is infinite; the survey begins at what the camera saw, and ends at the truth."""
     record, testbed = noisy(recording(60.0, move_at(20.0, 60.0)), 0), platform(3e-4)
     lost = astray(record, testbed)
-    with pytest.raises(np.linalg.LinAlgError):
-        examined(replace(survey(record, testbed, Params(), lost), cuts=cut_times(record)))
+    assert not np.isfinite(lost.at.cost)
+    monkeypatch.setattr(initial_model, "fit", lambda *_: lost)
+    estimate = reference_fit.estimate(record, testbed, Params())
+    assert estimate.outcome.usable
+    assert not estimate.events
+    off = estimate.values(BODY) - np.concatenate([INERTIA, COM])
+    assert np.abs(off / np.sqrt(np.diag(estimate.covariance_of(BODY)))).max() < 4.0
+
+
+def test_a_search_gone_astray_without_a_camera_is_an_outcome(monkeypatch):
+    """No measured state leads back: nothing settled, and nothing is reported about the record."""
+    clean = recording(60.0, move_at(20.0, 60.0), camera=0.0, gyro=10.0)
+    record, testbed = noisy(clean, 0), platform(3e-4, gyro=True)
+    lost = astray(record, testbed)
     monkeypatch.setattr(initial_model, "fit", lambda *_: lost)
     estimate = reference_fit.estimate(record, testbed, Params())
     assert not estimate.outcome.usable

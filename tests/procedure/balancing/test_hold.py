@@ -11,7 +11,7 @@ from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
 
 MINUTES = thorough.count(2, 1)
-HOLDING = HoldOptions(60.0 * MINUTES)
+HOLDING = HoldOptions(duration=60.0 * MINUTES)
 # Ten minutes of balancing find the inertia that a long hold needs; a short one does without.
 FIRST = replace(HOLDING.balancing, max_time=float(thorough.count(600, 100)))  # s
 

@@ -319,9 +319,9 @@ def ended(law, testbed=None, seed=1, **options):
 
 
 def test_what_a_law_claims_is_proved_by_what_comes_after():
-    """com is where it is wanted: passed, on a swing that begins after the last step."""
+    """com is where it is wanted, within 2.6 sd: passed, on a swing after the last step."""
     law = reported(Command(note=one_reason(LawReason.LEVEL_AGAIN)))
-    steps, bench = ended(law, target=HANGING, tolerance=np.full(3, 5e-6), proof=30.0)
+    steps, bench = ended(law, target=HANGING, tolerance=np.full(3, 6e-6), proof=30.0)
     assert [step.kind for step in steps] == ["control", "control", "verify"]
     assert steps[0].sentence == "Level again."
     assert steps[1].sentence == f"scripted for 0 s of bench time: {DONE.template}"

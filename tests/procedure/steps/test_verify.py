@@ -12,6 +12,7 @@ from equipoise.model.units import UM
 from equipoise.procedure.steps.joint_fit import learn
 from equipoise.procedure.steps.verify import (
     FRESH,
+    Aim,
     drift_since,
     fresh_enough,
     probability_within,
@@ -40,14 +41,14 @@ def test_probability_by_hand():
 
 
 def test_on_target_passes(known):
-    judged = verdict(known, None, 0.0, known.com, wide(known))
+    judged = verdict(known, None, 0.0, Aim(known.com, wide(known)))
     assert judged.passed
     assert judged.sentence.startswith("Passed")
 
 
 def test_outside_fails_and_names_the_axis(known):
     target = known.com + np.array([0.0, 20.0, 0.0]) * known.sd
-    judged = verdict(known, None, 0.0, target, wide(known))
+    judged = verdict(known, None, 0.0, Aim(target, wide(known)))
     assert judged.outcome == "failed"
     assert judged.reasons[0].parameters == ("y",)
     assert judged.sentence.endswith("y outside the tolerance.")
@@ -55,7 +56,7 @@ def test_outside_fails_and_names_the_axis(known):
 
 def test_too_uncertain_an_estimate_gives_an_inconclusive_verdict(known):
     """A tolerance of one sd holds with probability 0.68 at best."""
-    judged = verdict(known, None, 0.0, known.com, known.sd)
+    judged = verdict(known, None, 0.0, Aim(known.com, known.sd))
     assert judged.outcome == "undecided"
     assert judged.sentence.startswith("Cannot tell")
     assert "not known well enough" in judged.sentence
@@ -66,13 +67,13 @@ def test_outside_by_less_than_is_known_is_not_outside_for_sure(known, off, answe
     """Two sd beyond a tolerance: 1.96 of them leave 2.5 % for a truth within it."""
     tolerance = wide(known)
     target = known.com + np.array([0.0, 0.0, 1.0]) * (tolerance + off * known.sd)
-    judged = verdict(known, None, 0.0, target, tolerance)
+    judged = verdict(known, None, 0.0, Aim(target, tolerance))
     assert judged.outcome == answer
 
 
 def test_what_is_hardly_known_has_not_failed(known):
     """An sd of ten tolerances about the very target: 8 % within, and no failure."""
-    judged = verdict(known, None, 0.0, known.com, 0.1 * known.sd)
+    judged = verdict(known, None, 0.0, Aim(known.com, 0.1 * known.sd))
     assert judged.sentence.startswith("Cannot tell")
 
 
@@ -81,14 +82,14 @@ def test_a_move_that_led_elsewhere_fails(known, off, passes):
     """The measurement after a move tests its prediction: 2 sd may be chance, 20 are not."""
     there = known.com + off * np.sqrt(2) * known.sd
     move = Move({}, 0.0, 1.0, there, known.covariance, MoveReason.TO_TARGET)
-    judged = verdict(known, move, 0.0, known.com, wide(known))
+    judged = verdict(known, move, 0.0, Aim(known.com, wide(known)))
     assert judged.passed == passes
     assert (judged.code == "move_missed") != passes
 
 
 def test_an_estimate_that_cannot_be_used_is_no_verdict(known):
     bad = replace(known, estimate=replace(known.estimate, outcome=of_use(False)))
-    judged = verdict(bad, None, 0.0, known.com, wide(known))
+    judged = verdict(bad, None, 0.0, Aim(known.com, wide(known)))
     assert judged.outcome == "undecided"
     assert judged.sentence == f"Cannot tell: {of_use(False).sentence}"
 
@@ -111,4 +112,4 @@ def test_drift_since_the_move_is_no_contradiction(known):
     np.testing.assert_array_equal(drift_since(known, 30.0), np.zeros(3))
     before = known.com - drift_since(drifting, 30.0)
     move = Move({}, 0.0, 1.0, before, 1e-18 * np.eye(3), MoveReason.TO_TARGET)
-    assert verdict(drifting, move, 30.0, known.com, wide(known)).passed
+    assert verdict(drifting, move, 30.0, Aim(known.com, wide(known))).passed

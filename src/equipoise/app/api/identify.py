@@ -2,15 +2,21 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import overload
 
 from equipoise.app.arguments import inputs
-from equipoise.app.runs import identification
+from equipoise.app.runs import identification, joint_identification
 from equipoise.app.runs.identification import Identification
+from equipoise.app.runs.joint_identification import JointIdentification
 from equipoise.app.runs.waiting import passing_on
+from equipoise.model.errors import InputError
 from equipoise.model.step import Step
 from equipoise.procedure.identification.identify import IdentifyOptions
 
+Recordings = list[inputs.AnyRecording] | tuple[inputs.AnyRecording, ...]
 
+
+@overload
 def identify(
     recording: inputs.AnyRecording,
     testbed: inputs.AnyTestbed,
@@ -22,16 +28,47 @@ def identify(
     robust: bool = False,
     plan: inputs.AnyPlan | None = None,
     on_step: Callable[[Step], None] | None = None,
-) -> Identification:
+) -> Identification: ...
+
+
+@overload
+def identify(
+    recording: Recordings,
+    testbed: inputs.AnyTestbed,
+    *,
+    method: str = "auto",
+    terms: Sequence[str] = (),
+    hold: Sequence[str] = (),
+    use_prior: bool = False,
+    robust: bool = False,
+    plan: None = None,
+    on_step: Callable[[Step], None] | None = None,
+) -> JointIdentification: ...
+
+
+def identify(
+    recording: inputs.AnyRecording | Recordings,
+    testbed: inputs.AnyTestbed,
+    *,
+    method: str = "auto",
+    terms: Sequence[str] = (),
+    hold: Sequence[str] = (),
+    use_prior: bool = False,
+    robust: bool = False,
+    plan: inputs.AnyPlan | None = None,
+    on_step: Callable[[Step], None] | None = None,
+) -> Identification | JointIdentification:
     """Estimate centre of mass (m) and inertia about P (kg m^2), and say what cannot be observed.
 
     The result has ``estimate``, ``steps``, ``findings`` and ``recording``. Whether the estimate is
-    usable is its ``outcome``; poor data raise nothing.
+    usable is its ``outcome``; poor data raise nothing. Of several recordings of one platform, in a
+    list or tuple, it is their joint ``estimate``, with ``runs`` and the ``verdict`` on whether they
+    agree.
 
     Parameters
     ----------
     recording
-        Recording, or its file.
+        Recording, or its file; or a list of them, which are fitted jointly.
     testbed
         Testbed, its file, or a preset's name.
     method
@@ -58,6 +95,11 @@ def identify(
     requested = inputs.options_from(terms, hold, use_prior, robust)
     planned = None if plan is None else inputs.plan_from(plan, bed)
     options = IdentifyOptions(method, requested.terms, requested.hold, use_prior, robust)
+    if isinstance(recording, list | tuple):
+        if plan is not None:
+            raise InputError("plan", "several recordings", "the one that was made by the plan")
+        several = [inputs.recording_from(each, bed) for each in recording]
+        return joint_identification.run(several, bed, options, passing_on(on_step))
     rows = inputs.recording_from(recording, bed)
     done = identification.run(rows, bed, options, passing_on(on_step))
     return replace(done, plan=planned)

@@ -1,25 +1,58 @@
 """Simulate: what the sensors of a simulated platform record."""
 
 from collections.abc import Mapping, Sequence
+from typing import overload
 
 from equipoise.app.arguments.checks import positive, seed_of
 from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
 from equipoise.simulation.carried_out import record, simulated
+from equipoise.simulation.series import seeds_of, with_drawn_platform
 
 USUAL = 120.0  # s
+
+
+Moves = Sequence[tuple[float, Mapping[str, float]]]
+
+
+@overload
+def simulate(
+    testbed: AnyTestbed,
+    *,
+    duration: float | None = None,
+    moves: Moves = (),
+    plan: AnyPlan | None = None,
+    seed: int = 1,
+    series: None = None,
+) -> Recording: ...
+
+
+@overload
+def simulate(
+    testbed: AnyTestbed,
+    *,
+    duration: float | None = None,
+    moves: Moves = (),
+    plan: AnyPlan | None = None,
+    seed: int = 1,
+    series: int,
+) -> list[Recording]: ...
 
 
 def simulate(
     testbed: AnyTestbed,
     *,
     duration: float | None = None,
-    moves: Sequence[tuple[float, Mapping[str, float]]] = (),
+    moves: Moves = (),
     plan: AnyPlan | None = None,
     seed: int = 1,
-) -> Recording:
+    series: int | None = None,
+) -> Recording | list[Recording]:
     """Return the recording of a simulated platform in free motion or in a planned manoeuvre.
+
+    A series is of one platform, each run with a start and noise of its own.
 
     Parameters
     ----------
@@ -34,6 +67,9 @@ def simulate(
         Plan, or its file: how the platform is let go, by a hand that errs, and what follows.
     seed
         Seed of all that is drawn: the same seed gives the same recording.
+    series
+        Return a list of so many runs of the platform that the seed draws; their seeds follow the
+        first. None: one recording.
 
     Raises
     ------
@@ -44,9 +80,17 @@ def simulate(
         For a move beyond the travel of a mass.
     """
     bed, drawn = testbed_from(testbed), seed_of(seed)
-    if plan is None:
-        length = positive("duration", USUAL if duration is None else duration)
-        return record(bed, length, moves, drawn)
-    if moves or duration is not None:
+    if plan is not None and (moves or duration is not None):
         raise InputError("plan", "moves or duration beside it", "the plan alone")
-    return simulated(bed, plan_from(plan, bed).manoeuvre, drawn)
+    length = positive("duration", USUAL if duration is None else duration)
+    manoeuvre = None if plan is None else plan_from(plan, bed).manoeuvre
+
+    def made(bed: Testbed, seed: int) -> Recording:
+        if manoeuvre is None:
+            return record(bed, length, moves, seed)
+        return simulated(bed, manoeuvre, seed)
+
+    if series is None:
+        return made(bed, drawn)
+    runs, platform = int(positive("series", series)), with_drawn_platform(bed, drawn)
+    return [made(platform, each) for each in seeds_of(runs, drawn)]

@@ -24,7 +24,8 @@ def assess(
 ) -> int:
     """Say what gravity still does to a platform, how surely, and whether that is good enough.
 
-    Ends with 1 when the platform does not meet what is required, or the recording cannot decide it.
+    Ends with 1 when the platform does not meet what is required, or the recording cannot decide it;
+    with nothing required, when the estimate is not to be trusted.
 
     Parameters
     ----------
@@ -73,5 +74,5 @@ def assess(
     done = run(Recordings(recording, earlier, windows), bed, options, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     verdict = done.verdict
-    good = done.estimate.outcome.usable if verdict is None else verdict.passed
+    good = not done.estimate.outcome.warns if verdict is None else verdict.passed
     return 0 if good else 1

@@ -14,7 +14,8 @@ from equipoise.app.commands.by_hand import (
     is_by_hand,
 )
 from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, let_go, prepare
-from equipoise.app.console.terminal import busy
+from equipoise.app.console.terminal import busy, counted
+from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
     from equipoise.app.runs.balancing import Balancing, Goal, Limits
@@ -30,6 +31,7 @@ def balance(
     *,
     law: str = "measure_and_move",
     seed: Whole = 1,
+    series: Whole | None = None,
     plan: Path | None = None,
     target_um: Triple = (0.0, 0.0, -100.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
@@ -57,6 +59,9 @@ def balance(
         How to balance; `equipoise laws` lists them.
     seed
         Seed of all that is drawn: the same seed gives the same run.
+    series
+        Balance the simulated platform that the seed draws so many times; the seeds of the runs
+        follow the first. The folder gets run_01.csv and so on, what each run recorded.
     plan
         Plan file: begin with its manoeuvre, then balance on all that was recorded. Of
         measure_and_move alone, without a hold.
@@ -82,12 +87,13 @@ def balance(
     until = _until(max_moves, max_time_s, hold_min)
     check_on_bench(on_bench)
     if is_by_hand(by_hand, reading):
-        others = _of_moving_masses(law, plan, until) + ["--bench"] * on_bench.bench
+        others = _of_moving_masses(law, plan, until, series) + ["--bench"] * on_bench.bench
         check_by_hand(by_hand, reading, others)
         from equipoise.app.runs.balancing import Goal
 
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
+    runs = _runs(series, on_bench)
     bed, seed = testbed_from(testbed), seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed).manoeuvre
     check_outputs(out)
@@ -98,10 +104,41 @@ def balance(
         from equipoise.procedure.balancing.catalogue import CARDS
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
+    if runs is not None:
+        return _series(bed, Goal(*where), limits, (runs, seed), json=json, out=out)
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
     hand_over_run(output_of(done), json, out, bed.name)
     if done.stopped_with is not None:
         return done.stopped_with
+    return 0 if done.verdict.passed else 1
+
+
+def _runs(series: int | None, on_bench: OnBench) -> int | None:
+    """Return how many runs a series has, checked."""
+    from equipoise.app.arguments.checks import positive
+
+    if series is not None and on_bench.bench:
+        raise InputError("--series", "a real bench", "a simulated platform")
+    return None if series is None else int(positive("--series", series))
+
+
+def _series(
+    bed: "Testbed",
+    goal: "Goal",
+    limits: "Limits",
+    seeds: tuple[int, int],
+    *,
+    json: bool,
+    out: Path | None,
+) -> int:
+    """Balance one simulated platform several times."""
+    from equipoise.app.logbook.output import hand_over_run
+    from equipoise.app.runs.balance_series import run_series
+    from equipoise.app.views.balance_series_views import output_of
+
+    with counted(f"balancing {seeds[0]} runs") as progress:
+        done = run_series(bed, goal, limits, seeds, progress)
+    hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.verdict.passed else 1
 
 
@@ -143,10 +180,10 @@ def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> 
     )
 
 
-def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:
+def _of_moving_masses(law: str, plan: Path | None, until: Until, series: int | None) -> list[str]:
     """Return the options given that are not for a balancing by hand."""
     moves, longest, hold = until
     others = {"--law": law != "measure_and_move", "--max-moves": moves is not None,
               "--max-time-s": longest is not None, "--hold-min": hold > 0,
-              "--plan": plan is not None}  # fmt: skip
+              "--plan": plan is not None, "--series": series is not None}  # fmt: skip
     return [name for name, given in others.items() if given]

@@ -6,17 +6,22 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Json, Reading, Seeking
 from equipoise.app.console.terminal import busy
+from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from equipoise.model.finding import Finding
+    from equipoise.model.manoeuvre import Plan
+    from equipoise.model.recording import Recording
+    from equipoise.model.testbed import Testbed
+    from equipoise.procedure.identification.identify import IdentifyOptions
 
 
 def identify(
     file: str,
     /,
-    *,
+    *more: str,
     testbed: str,
     method: str = "auto",
     robust: Flag = False,
@@ -28,20 +33,27 @@ def identify(
 ) -> int:
     """Estimate centre of mass and inertia from a recording, and say what it cannot show.
 
-    Ends with 1 when the estimate is not usable; the sentence under the tables says why.
+    Several recordings of one platform are fitted jointly: inertia and centre of mass are common,
+    starts, biases and moves each one's own. A verdict says whether the runs agree.
+
+    Ends with 1 when the estimate is not usable, or the runs do not agree; the sentences under the
+    tables say why.
 
     Parameters
     ----------
     file
         Recording, as CSV or Parquet.
+    more
+        Further recordings of the same platform, fitted jointly with the first.
     testbed
         Testbed file, or a preset's name.
     method
-        auto, or one of those that `equipoise methods` lists.
+        auto, or one of those that `equipoise methods` lists; several recordings: trajectory.
     robust
         Give outliers less weight.
     plan
         Plan file that the recording was made by: what it predicted is compared with what is found.
+        Of one recording.
     out
         Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """
@@ -55,8 +67,31 @@ def identify(
 
     bed, of_fit = testbed_from(testbed), options_of(seeking)
     check_outputs(out)
-    recording = fitting_recording_of(file, reading, bed)
+    if more and plan is not None:
+        raise InputError("--plan", "several recordings", "the one that was made by the plan")
+    recordings = [fitting_recording_of(each, reading, bed) for each in (file, *more)]
     planned = None if plan is None else plan_from(plan, bed)
+    with busy("identifying", announce=False):
+        from equipoise.estimation.methods.registry import METHODS
+        from equipoise.procedure.identification.identify import IdentifyOptions
+
+    one_of("--method", method, ["auto", *METHODS])
+    options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust)
+    if more:
+        return _jointly(recordings, bed, options, json=json, out=out)
+    return _from_one(recordings[0], bed, options, planned, json=json, out=out)
+
+
+def _from_one(
+    recording: "Recording",
+    bed: "Testbed",
+    options: "IdentifyOptions",
+    planned: "Plan | None",
+    *,
+    json: bool,
+    out: Path | None,
+) -> int:
+    """Identify from one recording."""
     with busy("identifying", announce=False):
         from equipoise.app.console.rich_blocks import show
         from equipoise.app.logbook.output import hand_over_run
@@ -64,11 +99,6 @@ def identify(
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.text.run_blocks import finding_items
         from equipoise.app.views.identify_views import output_of
-        from equipoise.estimation.methods.registry import METHODS
-        from equipoise.procedure.identification.identify import IdentifyOptions
-
-    one_of("--method", method, ["auto", *METHODS])
-    options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust)
 
     def on_findings(found: "Sequence[Finding]") -> None:
         if not json:
@@ -77,3 +107,23 @@ def identify(
     done = replace(run(recording, bed, options, AT_TERMINAL, on_findings), plan=planned)
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.estimate.outcome.usable else 1
+
+
+def _jointly(
+    recordings: "Sequence[Recording]",
+    bed: "Testbed",
+    options: "IdentifyOptions",
+    *,
+    json: bool,
+    out: Path | None,
+) -> int:
+    """Identify from several recordings of one platform."""
+    with busy("identifying", announce=False):
+        from equipoise.app.logbook.output import hand_over_run
+        from equipoise.app.runs.joint_identification import run
+        from equipoise.app.runs.terminal_waiting import AT_TERMINAL
+        from equipoise.app.views.identify_runs_views import output_of
+
+    done = run(recordings, bed, options, AT_TERMINAL)
+    hand_over_run(output_of(done), json, out, bed.name)
+    return 0 if done.estimate.outcome.usable and done.verdict.passed else 1

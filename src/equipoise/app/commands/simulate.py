@@ -4,10 +4,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Names, Whole
-from equipoise.app.console.terminal import busy, show_paths
+from equipoise.app.console.terminal import busy, counted, show_paths
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from equipoise.model.recording import Recording
+    from equipoise.model.testbed import Testbed
     from equipoise.simulation.bench import SimulatedBench
 
 
@@ -20,8 +24,11 @@ def simulate(
     plan: Path | None = None,
     move: Names = (),
     seed: Whole = 1,
+    series: Whole | None = None,
 ) -> int:
     """Simulate a platform in free motion or a planned manoeuvre, and write what its sensors record.
+
+    A series is of one platform, each run with a start and noise of its own, as `identify` takes it.
 
     A platform that would swing to its stop is let go nearer to where it hangs. One that meets its
     stop even so, or as a plan or [truth] starts it, is said to, and when.
@@ -31,7 +38,8 @@ def simulate(
     testbed
         Testbed file, or a preset's name. Its [truth] says what the simulated platform is like.
     out
-        File to write: .csv, .parquet, .mcap or .mat.
+        File to write: .csv, .parquet, .mcap or .mat. With --series a folder, for run_01.csv and so
+        on.
     duration_s
         Length of the record: 120, or as the plan has it.
     plan
@@ -40,6 +48,8 @@ def simulate(
         Move of masses, "seconds: mass=mm mass=mm", as displacements from home. May be repeated.
     seed
         Seed of all that is drawn: the same seed gives the same record.
+    series
+        Simulate so many runs of the platform that the seed draws; their seeds follow the first.
     """
     from equipoise.app.arguments.checks import positive, seed_of
     from equipoise.app.arguments.inputs import move_of, plan_from, testbed_from
@@ -52,27 +62,59 @@ def simulate(
     planned = None if plan is None else plan_from(plan, bed)
     if planned is not None and (moves or duration_s is not None):
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
-    check_writable(out)
-    with busy("simulating"):
+
+    def made(bed: "Testbed", seed: int) -> "tuple[SimulatedBench, Recording]":
         from equipoise.simulation.carried_out import bench_for, carried_out, recorded
         from equipoise.simulation.free_start import freely
 
         if planned is None:
-            bench, recording = freely(bed, drawn, lambda bench: recorded(bench, duration, moves))
-        else:
-            bench = bench_for(bed, planned.manoeuvre, drawn)
-            recording = carried_out(bench, planned.manoeuvre)
+            return freely(bed, seed, lambda bench: recorded(bench, duration, moves))
+        bench = bench_for(bed, planned.manoeuvre, seed)
+        return bench, carried_out(bench, planned.manoeuvre)
+
+    if series is not None:
+        return _series(bed, drawn, int(positive("--series", series)), made, out)
+    check_writable(out)
+    with busy("simulating"):
+        bench, recording = made(bed, drawn)
         write_recording(recording, out)
-    _show_touches(bench)
+    _show_touches([bench])
     show_paths([out])
     return 0
 
 
-def _show_touches(bench: "SimulatedBench") -> None:
-    """Say when the platform met its stop."""
+def _series(
+    bed: "Testbed",
+    seed: int,
+    runs: int,
+    made: "Callable[[Testbed, int], tuple[SimulatedBench, Recording]]",
+    out: Path,
+) -> int:
+    """Write the recordings of a series into a folder, all of them or none."""
+    from equipoise.app.arguments.checks import check_outputs
+    from equipoise.app.report.series_files import check_series_folder, recordings_of
+    from equipoise.io.files.atomic_file import write_folder
+    from equipoise.simulation.series import seeds_of, with_drawn_platform
+
+    check_series_folder("--out", out)
+    check_outputs(out)
+    platform = with_drawn_platform(bed, seed)
+    runs_made = list[tuple["SimulatedBench", "Recording"]]()
+    with counted(f"simulating {runs} runs") as progress:
+        for k, each in enumerate(seeds_of(runs, seed), 1):
+            runs_made.append(made(platform, each))
+            progress(k / runs)
+    show_paths(write_folder(out, recordings_of([recording for _, recording in runs_made])))
+    _show_touches([bench for bench, _ in runs_made])
+    return 0
+
+
+def _show_touches(benches: "Sequence[SimulatedBench]") -> None:
+    """Say when platforms met their stop."""
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.run_blocks import finding_items
     from equipoise.assessment.findings.stop_findings import touch_findings
 
-    spans = [(touch.start, touch.end) for touch in bench.touches]
-    show(finding_items(touch_findings(spans, bench.testbed.tilt_limit)))
+    for bench in benches:
+        spans = [(touch.start, touch.end) for touch in bench.touches]
+        show(finding_items(touch_findings(spans, bench.testbed.tilt_limit)))

@@ -22,6 +22,7 @@ KINDS = {
     "MassProperties": ("of_mass_properties", ""),
     "Testbed": ("of_testbed", ""),
     "Identification": ("of_identification", "identify_views"),
+    "JointIdentification": ("of_joint_identification", "identify_runs_views"),
     "AssessedPlatform": ("of_assessment", "assess_views"),
     "Observation": ("of_observation", "observe_views"),
     "Balancing": ("of_balancing", "balance_views"),

@@ -186,7 +186,7 @@ def requested_stop(bench: Bench, stop: KeyboardInterrupt, reported: str) -> Step
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     """Return the steps of balancing and, when that passes and a hold is requested, of holding."""
-    holding = HoldOptions(limits.hold, goal.target, goal.tolerance)
+    holding = HoldOptions(goal.target, goal.tolerance, duration=limits.hold)
     usual = holding.balancing if limits.hold > 0 else BalanceOptions(goal.target, goal.tolerance)
     moves = usual.max_moves if limits.max_moves is None else limits.max_moves
     balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)

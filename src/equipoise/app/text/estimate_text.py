@@ -3,13 +3,20 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from equipoise.app.text.blocks import Blocks, Claim, Column, Row, Table, items, number, table
+from equipoise.app.text.blocks import Blocks, Claim, Column, Row, Table, Tone, items, number, table
 from equipoise.app.text.numbers import fixed, interval, significant, unit_for, with_sd
 from equipoise.maths.whiteness import WHITE
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
+from equipoise.model.outcome import Trust
 from equipoise.model.units import DEG, UM
 from equipoise.model.verdict import Verdict
 
+TONES: dict[Trust, Tone] = {
+    Trust.TRUSTWORTHY: "good",
+    Trust.WIDENED: "good",
+    Trust.NOT_TRUSTWORTHY: "caution",
+    Trust.NOT_USABLE: "bad",
+}
 COLUMNS = (Column(), *map(number, ("value", "sd", "95 % interval")), Column("unit"))
 
 
@@ -53,7 +60,7 @@ def unobservable_items(estimate: Estimate) -> Blocks:
 
 def outcome_claim(estimate: Estimate) -> Claim:
     """Return the sentence that sums an estimate up."""
-    return Claim(estimate.outcome.sentence, "good" if estimate.outcome.usable else "bad")
+    return Claim(estimate.outcome.sentence, TONES[estimate.outcome.trust])
 
 
 def residual_line(residual: Residual | None) -> str:

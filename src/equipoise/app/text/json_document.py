@@ -188,12 +188,18 @@ TRUTH = shape(
 )
 
 # Truth only where it is simulated; a run that waits for a person has no verdict yet.
-BALANCE = document(
-    "equipoise/balance/2",
+BALANCED = (
     *fields("steps", many(STEP)),
     *fields("verdict", maybe(VERDICT)),
     *fields("truth", TRUTH, optional=True),
     *fields("provenance", by_name(TEXT)),
+)
+BALANCE = document("equipoise/balance/2", *BALANCED)
+
+BALANCE_SERIES = document(
+    "equipoise/balance_series/1",
+    *fields("verdict", VERDICT),
+    *fields("runs", many(shape(*fields("seed", COUNT), *BALANCED))),
 )
 
 

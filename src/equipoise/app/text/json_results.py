@@ -2,6 +2,7 @@
 
 from equipoise.app.text.json_document import (
     ESTIMATE,
+    FINDING,
     NUMBERS,
     PARAMETER,
     REASONS,
@@ -48,6 +49,15 @@ SWING = shape(
     *fields("distance_m=distance distance_sd_m=distance_sd", NUMBER),
 )
 
+# What a cross-check found, whether the estimate's trust hangs on it, and whether it contradicts.
+CROSS_CHECK = shape(
+    *fields("metric code", TEXT),
+    *fields("counts disagrees", FLAG),
+    *fields("distance_m=distance distance_sd_m=sd off_sd=off", NUMBER, "found"),
+    *fields("reasons", REASONS),
+    *fields("sentence", TEXT),
+)
+
 COM = shape(
     *fields("value_m=com", VECTOR),
     *fields("covariance_m2=com_covariance covariance_at_inertia_m2=com_unscaled", MATRIX),
@@ -73,6 +83,7 @@ PLATFORM = (
     *fields("torque_in_range=done.torque", TORQUE_IN_RANGE),
     *fields("inertia_sd", NUMBER, "done"),
     Key("metrics", METRICS, lambda found: found),
+    *fields("cross_checks", many(CROSS_CHECK)),
 )
 
 
@@ -109,6 +120,38 @@ ASSESS = document(
     *fields("before", maybe(shape(*PLATFORM))),
     *fields("over_hours", maybe(OVER_HOURS)),
     *fields("estimate", ESTIMATE),
+)
+
+# How much a run deviates from all together: chi-square in the sd of that difference.
+DEVIATION = shape(*fields("chi_square freedom probability", NUMBER))
+
+ONE_RUN = shape(
+    *fields("name", TEXT),
+    *fields("sha256", TEXT, "recording"),
+    *fields("used", FLAG),
+    *fields("deviation", maybe(DEVIATION)),
+    *fields("findings", many(FINDING)),
+    *fields("estimate", ESTIMATE),
+)
+
+# One parameter over the runs that show it.
+SPREAD = shape(
+    *fields("name unit", TEXT),
+    *fields("runs", COUNT),
+    *fields("mean sd_between sd_stated", NUMBER),
+)
+
+SCATTER = shape(
+    *fields("chi_square freedom probability factor", NUMBER),
+    *fields("parameters=spreads", many(SPREAD)),
+)
+
+IDENTIFY_RUNS = document(
+    "equipoise/identify_runs/1",
+    *fields("verdict", VERDICT),
+    *fields("scatter=joint.scatter", maybe(SCATTER)),
+    *fields("estimate", ESTIMATE),
+    *fields("runs", many(ONE_RUN)),
 )
 
 # What a manoeuvre is expected to show; sd by parameter, SI.

@@ -1,23 +1,27 @@
 """The tables of an assessment."""
 
-from collections.abc import Iterator
-
 import numpy as np
 
-from equipoise.app.text.blocks import Column, Table, number, table
+from equipoise.app.text.blocks import (
+    Blocks,
+    Column,
+    Item,
+    Items,
+    Row,
+    Table,
+    Tone,
+    number,
+    table,
+)
 from equipoise.app.text.estimate_text import residual_line
 from equipoise.app.text.numbers import significant, with_sd
 from equipoise.assessment.metrics.allan import FEWEST
-from equipoise.assessment.metrics.swing_height import Hanging
 from equipoise.maths.gaussian_length import Bounded
 from equipoise.model.arrays import Floats, Matrix3, Vector3
-from equipoise.model.estimate import COM
 from equipoise.model.units import MINUTE, PERCENT, UM, UN_M
 from equipoise.procedure.identification.assess import Assessment
+from equipoise.procedure.identification.cross_checks import CrossCheck, Metric, distance
 from equipoise.procedure.identification.drift_metrics import OverHours
-
-MODES = {0: "slow swing", 1: "quick swing", None: "both swings, as one"}
-Row = tuple[str, str, str, str, str, str]
 
 
 def range_table(done: Assessment) -> Table:
@@ -50,54 +54,61 @@ def bounds(found: Bounded, unit: float) -> tuple[str, str, str]:
 
 def measurements_table(done: Assessment) -> Table:
     """Return the centre of mass by the fit and by simpler methods."""
-    lines = [list(row) for row in metric_rows(done)]
-    metrics = done.metrics
-    remarks = [
-        "All at the inertia that the fit found. Off: from the fit, in sd of the difference.",
-        f"The others use {metrics.duration:.3g} s of swing since the masses stopped"
-        + (f"; no period: {metrics.quiet}." if metrics.quiet else "."),
-    ]
-    for fit in (metrics.torque_fit, metrics.energy_fit):
-        if fit is not None and not fit.outcome.usable:
-            remarks.append(f"{fit.method}: {fit.outcome.sentence}")
+    lines = [fit_row(done), *(check_row(done, check) for check in done.checks)]
+    notes = (
+        "All at the inertia that the fit found. The fit's sd counts that of the inertia; the "
+        "others' do not, as all share it. Off: from the fit at that inertia, in sd of the "
+        "difference.",
+        f"The others use {done.metrics.duration:.3g} s of swing since the masses stopped.",
+    )
     columns = (Column(), number("com x", "um"), number("y"), number("z"),
-               number("distance from P", "um"), number("off"))  # fmt: skip
+               number("distance from P", "um"), number("off"), Column("counts"))  # fmt: skip
     title = "Centre of mass, as the masses stand, by several methods"
-    return table(title, columns, lines, remarks)
+    return table(title, columns, lines, notes)
 
 
-def metric_rows(done: Assessment) -> Iterator[Row]:
-    """Yield a row a method."""
-    yield ("trajectory fit", *components(done.com, done.com_unscaled),
-           length_text(*distance(done.com, done.com_unscaled)), "")  # fmt: skip
-    metrics = done.metrics
-    named = ((f"torque, slopes over {metrics.window:.3g} s", metrics.torque_fit),
-             ("energy", metrics.energy_fit))  # fmt: skip
-    for name, fit in named:
-        if fit is not None and fit.outcome.usable:
-            com, covariance = fit.com, fit.covariance_of(COM)
-            off = (com - done.com) / np.sqrt(np.diag(covariance + done.com_unscaled))
-            yield (name, *components(com, covariance), length_text(*distance(com, covariance)),
-                   f"{np.abs(off).max():.1f}")  # fmt: skip
-    for hanging in metrics.hanging:
-        yield period_row(done, hanging)
+def fit_row(done: Assessment) -> Row:
+    """Return the row of the fit."""
+    size = length_text(*distance(done.com, done.com_covariance))
+    return Row(("trajectory fit", *components(done.com, done.com_covariance), size, "", ""))
 
 
-def period_row(done: Assessment, hanging: Hanging) -> Row:
-    """Return the row of a swing."""
-    period, sd = 1 / hanging.swing.frequency, hanging.swing.sd / hanging.swing.frequency**2
-    value, spread = hanging.moment / done.testbed.weight, hanging.sd / done.testbed.weight
-    fit, fit_sd = distance(done.com, done.com_unscaled)
-    name = f"{MODES[hanging.mode]}, {' +/- '.join(with_sd(period, sd))} s"
-    off = abs(value - fit) / float(np.hypot(spread, fit_sd))
-    return name, "", "", "", length_text(value, spread), f"{off:.1f}"
+def check_row(done: Assessment, check: CrossCheck) -> Row:
+    """Return the row of a cross-check."""
+    found, name, counts = check.found, check_name(done, check), "yes" if check.counts else "no"
+    if found is None:
+        return Row((name, "", "", "", "", "", counts), "quiet")
+    com = ("", "", "")
+    if found.com is not None and found.covariance is not None:
+        com = components(found.com, found.covariance)
+    cells = (name, *com, length_text(found.distance, found.sd), f"{found.off:.1f}", counts)
+    return Row(cells, tone_of(check))
 
 
-def distance(com: Vector3, covariance: Matrix3) -> tuple[float, float]:
-    """Return the distance from P (m) and its sd."""
-    size = float(np.linalg.norm(com))
-    way: Vector3 = com / max(size, 1e-12)
-    return size, float(np.sqrt(way @ covariance @ way))
+def check_name(done: Assessment, check: CrossCheck) -> str:
+    """Return what a cross-check goes by, with the time over which it goes."""
+    if check.metric is Metric.TORQUE:
+        return f"{check.metric.value}, slopes over {done.metrics.window:.3g} s"
+    if check.found is None or check.found.swing is None:
+        return check.metric.value
+    swing = check.found.swing
+    period = with_sd(1 / swing.frequency, swing.sd / swing.frequency**2)
+    return f"{check.metric.value}, {' +/- '.join(period)} s"
+
+
+def tone_of(check: CrossCheck) -> Tone:
+    """Return how a cross-check is set off: one that disagrees, and one that does not count."""
+    if check.disagrees:
+        return "bad"
+    return "plain" if check.counts else "quiet"
+
+
+def check_items(done: Assessment) -> Blocks:
+    """Return what each cross-check said, and whether it counts."""
+    if not done.checks:
+        return ()
+    said = (Item(f"Cross-check, {check.sentence}", tone_of(check)) for check in done.checks)
+    return (Items(tuple(said)),)
 
 
 def components(com: Vector3, covariance: Matrix3) -> tuple[str, str, str]:
@@ -156,7 +167,9 @@ def change_table(before: Assessment, after: Assessment) -> Table:
         for name, old, new, unit, name_of_unit in rows
     ]  # fmt: skip
     columns = (Column(), number("before (95 %)"), number("after (95 %)"), Column("unit"), Column())
-    return table("Before and after", columns, lines)
+    outcome = before.estimate.outcome
+    notes = (f"Of the one before: {outcome.sentence}",) if outcome.warns else ()
+    return table("Before and after", columns, lines, notes)
 
 
 def hours_table(hours: OverHours) -> Table:

@@ -19,6 +19,7 @@ from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import finding_items, moments, verdict_blocks, verdict_claim
 from equipoise.app.views.assess_tables import (
     change_table,
+    check_items,
     hours_table,
     measurements_table,
     range_table,
@@ -54,9 +55,11 @@ def blocks(reported: AssessedPlatform) -> Blocks:
 
 
 def tables_of(reported: AssessedPlatform) -> Blocks:
-    """Return the tables; where the fit cannot be used, of the residual torque alone."""
+    """Return tables and cross-checks; where the fit is of no use, the residual torque alone."""
     done = reported.done
-    usable = (range_table(done), measurements_table(done)) if done.estimate.outcome.usable else ()
+    usable = ()
+    if done.estimate.outcome.usable:
+        usable = (range_table(done), measurements_table(done), *check_items(done))
     before = () if reported.before is None else (change_table(reported.before, done),)
     hours = () if reported.hours is None else (hours_table(reported.hours),)
     return (*usable, torque_table(done), *before, *hours)
@@ -146,6 +149,7 @@ def platform_of(done: Assessment) -> View:
         "torque": along_record(metrics.torque, metrics.torque_fit),
         "energy": along_record(metrics.energy, metrics.energy_fit),
         "swings": [swing_of(each, done.testbed.weight) for each in metrics.hanging],
+        "cross_checks": done.checks,
     }
 
 

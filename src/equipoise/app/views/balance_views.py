@@ -1,5 +1,7 @@
 """A balancing run for terminal, JSON and report."""
 
+from typing import Any
+
 import numpy as np
 
 from equipoise.app.figures.balancing.balanced_com import Story
@@ -44,12 +46,17 @@ def change_blocks(done: Balancing) -> Blocks:
 
 def document(done: Balancing) -> View:
     """Return the run as JSON."""
-    return BALANCE.write({
+    return BALANCE.write(document_fields(done))
+
+
+def document_fields(done: Balancing) -> dict[str, Any]:
+    """Return what the document is written from."""
+    return {
         "steps": done.steps,
         "verdict": done.verdict,
         "truth": done.truths[-1] if done.truths else None,
         "provenance": _origin(done),
-    })  # fmt: skip
+    }
 
 
 def logged_of(done: Balancing) -> Logged:

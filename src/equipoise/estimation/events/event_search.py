@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from equipoise.actuators.travel_times import merged_travels
 from equipoise.estimation.events.event_times import later, rows_of, timed
 from equipoise.estimation.events.jump_test import KINDS, threshold
 from equipoise.estimation.events.record_model import (
@@ -22,6 +23,7 @@ NEAR = 1.6  # spacings, chosen: with process noise, events nearer than this may 
 CLEAR = 9.0  # chosen: 2 ln of how much likelier one kind is than another, to be decided
 OUTLYING = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
 SWINGS = 3.0  # of the same time, chosen: without process noise, events nearer than this may be one
+SHORT = 0.1  # of the farthest travel, chosen: less gives no scale beside it
 DOUBTFUL = 4.0  # thresholds, chosen: an event so sure is not put to the test
 
 
@@ -37,17 +39,45 @@ def of_either_kind(model: RecordModel, k: int) -> RecordModel:
     return nearest(models)
 
 
+def spans_of_travels(model: RecordModel) -> list[tuple[float, float]]:
+    """Return from when to when masses travelled far, s, each by a cut's spacing longer."""
+    track = model.recording.masses
+    if track is None or len(track) < 2:
+        return []
+    columns = zip(track.values.T, model.testbed.masses, strict=True)
+    ways = [
+        (abs(d[last] - d[first]) * mass.mass, track.t[first], track.t[last])
+        for d, mass in columns
+        for first, last in merged_travels(track.t, d, mass.speed)
+    ]
+    most = max((way for way, _, _ in ways), default=0.0)
+    margin = model.spacing
+    return [(float(a - margin), float(b + margin)) for way, a, b in ways if way > SHORT * most]
+
+
+def is_during_travel(model: RecordModel, t: float) -> bool:
+    """Say whether masses travel far at a time (s), or within a cut's spacing of it."""
+    return any(start <= t <= end for start, end in spans_of_travels(model))
+
+
+def without_sure_travel(model: RecordModel) -> bool:
+    """Say whether masses travel, but never far without an event."""
+    spans, times = spans_of_travels(model), [event.t for event in model.events]
+    return bool(spans) and all(any(a <= t <= b for t in times) for a, b in spans)
+
+
 def doubted(model: RecordModel) -> RecordModel:
     """Return the model with all that may jump at events that may as well be of another kind.
 
     Without a swing behind them a contact and a part that shifts are alike in the rows; what follows
-    for the centre of mass is not.
+    for the centre of mass is not. While masses travel an event may be of the travel: what shifts
+    then may be any part of what was recorded, and the scale is as open as that leaves it.
     """
     for k, event in enumerate(model.events):
         others = [other for other in KINDS if other != event.kind]
         models = [timed(with_kind(model, k, other), k) for other in others]
         rival = nearest(models)
-        if farther(rival, model) < CLEAR:
+        if farther(rival, model) < CLEAR or is_during_travel(model, event.t):
             open_to = replace(event, unclear=True, aside=rival.events[k].t - event.t)
             events = (*model.events[:k], open_to, *model.events[k + 1 :])
             model = replace(model, events=events)

@@ -25,10 +25,16 @@ from equipoise.estimation.events.record_model import (
     smoothed,
 )
 from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
+from equipoise.estimation.output_error.initial_guess import stated_body
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
+from equipoise.estimation.output_error.multiple_shooting import shot_driven
+from equipoise.estimation.output_error.problem import Problem
+from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import Fitted, freedom
+from equipoise.estimation.output_error.trajectory import problem_of
 from equipoise.estimation.parameters.fit_parameters import RATE
 from equipoise.model.arrays import Bools, Floats, Series1, Vector3
+from equipoise.model.estimate import RATE as RATES
 from equipoise.model.testbed import Testbed
 
 MEDIAN, MEDIAN_1 = float(chi2.median(3)), float(chi2.median(1))
@@ -37,6 +43,7 @@ CALIBRATIONS = 12
 BEST = 0.02  # chosen: no sensor is fifty times better than stated
 BOLDEST = 5.0  # factor by which a noise is changed at once
 STEPS = 8
+STRETCH = 1.0  # s, chosen: camera rows within tell the rate, torques do not turn it by much
 LEAST = 1e-3  # chosen: of the greatest process noise, so that no sd is zero
 PRICE = 9.0  # chosen: -2 ln probability that process noise about three axes must gain
 
@@ -64,6 +71,31 @@ def first_walk(model: RecordModel) -> float:
     moment = model.testbed.body.mean_moment
     span = 10 * model.spacing
     return moment * left / span ** (1.5 if len(camera) else 0.5)
+
+
+def followed(model: RecordModel) -> RecordModel:
+    """Return the model with process noise, and the fit that follows the motion with it.
+
+    For a record whose plain fit is lost: torques that nobody knows may turn a spin by any angle.
+    Begins at the stated body, and at the measured states (``multiple_shooting``).
+    """
+    recording, stated = model.recording, model.stated
+    first = stated_body(stated, model.fitted.point)
+    guided = replace(model.params, terms=(), use_prior=True)
+    stride = max(1, int(STRETCH / model.spacing))
+    times = model.cuts[::stride]
+
+    def posed_with(joints: tuple[Jump, ...]) -> Problem:
+        return problem_of(recording, model.testbed, replace(guided, jumps=joints))
+
+    point, values = shot_driven(recording, stated, posed_with, first, times)
+    moments = np.diag(stated.body.inertia_P)
+    sd = np.sqrt(np.mean(values**2, axis=0) / (stride * model.spacing))
+    driven = replace(model, walk=moments * np.maximum(sd, LEAST * sd.max()))
+    jumps = tuple(Jump(float(t), RATES, (1.0, 1.0, 1.0)) for t in times)
+    problem = problem_of(recording, model.testbed, replace(model.params, jumps=jumps))
+    fitted = replace(model.fitted, problem=problem, point=point, jumps=values)
+    return refitted(replace(driven, fitted=fitted))
 
 
 def free_share(fit: Fitted, after: Smoothed) -> float:

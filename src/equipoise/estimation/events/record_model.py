@@ -16,7 +16,7 @@ from equipoise.estimation.output_error.kernels.segments import count_free
 from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.output_error.segment_jumps import Jump, carried, inside, walk
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
-from equipoise.estimation.output_error.trajectory import Params, problem_of
+from equipoise.estimation.output_error.trajectory import Params, cost_of, problem_of
 from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
 from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording
@@ -129,8 +129,8 @@ def smoothed(model: RecordModel) -> tuple[Fitted, Smoothed]:
 
 
 def nearest(models: Iterable[RecordModel]) -> RecordModel:
-    """Return the model that explains the record best, whatever it took."""
-    return min(models, key=lambda model: model.fitted.at.cost)
+    """Return the model that explains the record best, whatever it took; finite if any is."""
+    return min(models, key=lambda model: cost_of(model.fitted))
 
 
 def farther(model: RecordModel, other: RecordModel) -> float:
@@ -186,8 +186,15 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
 
 
 def improbability(model: RecordModel) -> float:
-    """Return -2 ln of how probable the record is in a model, its events at the usual price."""
-    return evidence(*smoothed(model), threshold(model.spacing))
+    """Return -2 ln of how probable the record is in a model, its events at the usual price.
+
+    Infinite where that is no number, or information has no inverse: such a model never wins.
+    """
+    try:
+        found = evidence(*smoothed(model), threshold(model.spacing))
+    except np.linalg.LinAlgError:
+        return np.inf
+    return found if np.isfinite(found) else np.inf
 
 
 def log_det(matrix: Square) -> float:

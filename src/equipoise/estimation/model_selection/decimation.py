@@ -23,6 +23,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from equipoise.actuators.travel_times import unresolved_steps
 from equipoise.estimation.model_selection.survey import ROWS, finest_spacing
 from equipoise.estimation.output_error.problem import errors_of, quickest_swing
 from equipoise.maths.attitude import difference, exponential, multiply
@@ -120,6 +121,13 @@ def most_rows(channel: Samples | None, longest: float, turn: Turn) -> int:
     return k if k * len(first_rows(channel, k)) >= WHOLE * len(channel) else 1
 
 
+def open_rows(track: Samples, testbed: Testbed) -> Ints:
+    """Return the rows between which a travel is unresolved: how long they are apart counts."""
+    columns = zip(track.values.T, testbed.masses, strict=True)
+    steps = np.any([unresolved_steps(track.t, d, m.speed) for d, m in columns], axis=0)
+    return np.flatnonzero(np.append(steps, False) | np.append(False, steps))
+
+
 def with_few_bends(recording: Recording, testbed: Testbed) -> Recording:
     """Return the recording with displacements as few straight lines.
 
@@ -135,7 +143,8 @@ def with_few_bends(recording: Recording, testbed: Testbed) -> Recording:
     moment = float(np.linalg.eigvalsh(testbed.body.inertia_P)[0])
     heavy = np.array([mass.mass for mass in testbed.masses]) * testbed.gravity
     tolerance = FINE * noise * moment * swing**2 / heavy
-    few = Samples(*straight_pieces(masses.t, masses.values, tolerance))
+    firm = open_rows(masses, testbed)
+    few = Samples(*straight_pieces(masses.t, masses.values, tolerance, firm))
     found = replace(recording, masses=few)
     same = errors_of(found, testbed).names == errors_of(recording, testbed).names
     return found if same else recording

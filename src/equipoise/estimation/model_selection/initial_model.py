@@ -63,7 +63,7 @@ def anchored(
     """
     found, guess = fitted.point.body(testbed.body.mass), testbed.body
     moved = np.diag(found.inertia_P - guess.inertia_P) / guess.mean_moment
-    if params.use_prior or not is_near(fitted) or float(np.abs(moved).max()) < OUTLYING:
+    if params.use_prior or not is_close(fitted) or float(np.abs(moved).max()) < OUTLYING:
         return testbed, fitted
     nearer = replace(testbed, body=found)
     return nearer, fit(recording, nearer, params, fitted.point)

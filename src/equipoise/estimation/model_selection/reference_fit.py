@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.events.event_report import reported_events
+from equipoise.estimation.events.event_search import is_during_travel, without_sure_travel
 from equipoise.estimation.events.event_time_covariance import with_moments
 from equipoise.estimation.events.record_model import RecordModel, jumping, refitted
 from equipoise.estimation.model_selection.decimation import condensed
@@ -27,6 +28,7 @@ from equipoise.estimation.model_selection.survey_reasons import (
     term_reasons,
     walk_reasons,
 )
+from equipoise.estimation.motion.unresolved_rates import without_unresolved_rates
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
 from equipoise.estimation.output_error.outlier_rejection import without_outliers
 from equipoise.estimation.output_error.segment_jumps import carried
@@ -94,7 +96,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
     base, share = concluded.outcome, driven(model)
     if not base.usable:
         return base
-    found = [*base.reasons, *event_reasons(concluded), *noise_reasons(model)]
+    found = [*base.reasons, *event_reasons(concluded, model), *noise_reasons(model)]
     found += [
         *lean_reasons(model, concluded),
         *term_reasons(model, requested),
@@ -107,12 +109,15 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
     return Outcome(tuple(found))
 
 
-def event_reasons(concluded: Estimate) -> list[Reason]:
-    """Return how many events the fit steps over."""
+def event_reasons(concluded: Estimate, model: RecordModel) -> list[Reason]:
+    """Return how many events the fit steps over, and which coincide with recorded travels."""
     if not concluded.events:
         return []
     times = tuple(f"{event.t:.4g}" for event in concluded.events)
-    return [Reason(Why.EVENTS_FOUND, times, {"count": len(times)})]
+    found = [Reason(Why.EVENTS_FOUND, times, {"count": len(times)})]
+    events = zip(times, concluded.events, strict=True)
+    moving = tuple(name for name, event in events if is_during_travel(model, event.t))
+    return [*found, Reason(Why.EVENTS_AT_TRAVELS, moving)] if moving else found
 
 
 def surveyed(recording: Recording, testbed: Testbed, params: Params) -> RecordModel:
@@ -144,23 +149,42 @@ def too_few(recording: Recording, testbed: Testbed) -> bool:
 
 def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of a record, with its residual on a part that was held out."""
+    return modelled(recording, testbed, params)[1]
+
+
+def modelled(
+    recording: Recording, testbed: Testbed, params: Params
+) -> tuple[RecordModel | None, Estimate]:
+    """Return the model that a record supports, and its estimate; too few rows have no model."""
     recording = arranged(recording, testbed.mass_names)
     if too_few(recording, testbed):
         nothing = outcome(Why.TOO_FEW_ROWS, rows=recording.rows)
-        return Estimate(METHOD, nothing, (), np.zeros((0, 0)))
-    if not params.robust:
-        return estimate_of(recording, testbed, params)
-    kept, gone = without_outliers(recording, testbed, params)
-    found = estimate_of(kept, testbed, params)
-    if not gone:
-        return found
-    left_out = Reason(Why.OUTLIERS_REMOVED, (), {"rows": gone})
-    return replace(found, outcome=Outcome((*found.outcome.reasons, left_out)))
+        return None, Estimate(METHOD, nothing, (), np.zeros((0, 0)))
+    kept, unresolved = without_unresolved_rates(recording, testbed)
+    gone = {Why.RATES_UNRESOLVED: unresolved}
+    if params.robust:
+        kept, gone[Why.OUTLIERS_REMOVED] = without_outliers(kept, testbed, params)
+    model, found = modelled_by_all_rows(kept, testbed, params)
+    left_out = [Reason(code, (), {"rows": rows}) for code, rows in gone.items() if rows]
+    return model, replace(found, outcome=Outcome((*found.outcome.reasons, *left_out)))
 
 
-def estimate_of(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
-    """Return the estimate of rows that are all to be used."""
-    return as_estimate(surveyed(recording, testbed, params), recording, params)
+def modelled_by_all_rows(
+    recording: Recording, testbed: Testbed, params: Params
+) -> tuple[RecordModel, Estimate]:
+    """Return the model and the estimate of rows that are all to be used."""
+    model = with_sure_scale(surveyed(recording, testbed, params))
+    return model, as_estimate(model, recording, params)
+
+
+def with_sure_scale(model: RecordModel) -> RecordModel:
+    """Return the model with an open scale where that rests on travels with events alone.
+
+    What then moved the platform was not, or not only, what is recorded of the masses.
+    """
+    if not without_sure_travel(model):
+        return model
+    return refitted(replace(model, params=replace(model.params, travels_count=False)))
 
 
 def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Estimate:

@@ -34,13 +34,14 @@ from equipoise.estimation.events.noise_identification import (
     calibrated,
     excesses,
     first_walk,
+    followed,
     quiet,
     weighed,
 )
 from equipoise.estimation.events.process_noise_spectrum import coloured
 from equipoise.estimation.events.record_model import Happening, RecordModel, improbability, smoothed
 from equipoise.estimation.model_selection import survey_reasons
-from equipoise.estimation.model_selection.initial_model import is_close
+from equipoise.estimation.model_selection.initial_model import is_close, is_near
 from equipoise.estimation.model_selection.model_choice import (
     Refused,
     bared,
@@ -113,7 +114,9 @@ def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
 
 def wandering(model: RecordModel) -> RecordModel:
     """Return the model with some process noise to begin with."""
-    return replace(model, walk=np.full(3, first_walk(model)))
+    if is_close(model.fitted) or model.recording.attitude is None:
+        return replace(model, walk=np.full(3, first_walk(model)))
+    return followed(model)
 
 
 def is_drowned(model: RecordModel) -> bool:
@@ -131,7 +134,7 @@ def is_calm(model: RecordModel) -> bool:
 
 def driven(model: RecordModel) -> RecordModel:
     """Return the model of a platform that something unknown drives: with process noise."""
-    model = wandering(model)
+    model = model if model.wanders else wandering(model)
     for turn in range(ROUNDS):
         wider = searched(model, MOST_EVENTS)
         if turn > 0 and contents(wider) == contents(model):
@@ -181,7 +184,7 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     """Return the model that the record supports, and the fit in it; unsettled if it went astray."""
     cuts = cut_times(recording)
     model = RecordModel(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
-    if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
+    if len(cuts) < FEWEST:
         return replace(model, cuts=np.zeros(0))
     try:
         return coloured(examined(levelled(model)))
@@ -195,12 +198,15 @@ def examined(model: RecordModel) -> RecordModel:
     First without process noise, which could hide a term that explains all. Where ``MANY`` events
     turn up, a torque that wanders is tried before all is sought once more, which takes long with
     so many, and spares that only with a great ``LEAD``: touches may first be found elsewhere than
-    they were. Of a platform that is driven by far more than gravity nothing is sought.
+    they were. Of a platform that is driven by far more than gravity nothing is sought. Where the
+    plain fit is lost, events cannot be found from it: there is process noise from the start.
     """
     if not is_close(model.fitted):
         wild, _, _ = calibrated(wandering(model))
         if is_drowned(wild):
             return wild
+        if not (is_near(model.fitted) and model.fitted.converged):
+            return doubted(driven(wild))
     greedy = repeated(model)
     if len(greedy.events) < MANY:
         return doubted(compared(model, calm(model, greedy)))

@@ -1,5 +1,6 @@
 """From an optimum to an estimate: covariance, intervals, what was not observed, and the outcome."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,7 @@ from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.method_contract import origin_of
+from equipoise.estimation.output_error.input_errors import STEP, input_shifts
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.servo_sag_covariance import by_sag
 from equipoise.estimation.output_error.solution import Fitted, freedom, smooth_at
@@ -34,13 +36,14 @@ from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import inverse_where, lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
 from equipoise.model.arrays import Floats, Square
-from equipoise.model.estimate import COM, END, Estimate, Parameter, Residual
+from equipoise.model.estimate import BODY, COM, END, Estimate, Parameter, Residual
 from equipoise.model.outcome import Outcome, outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
 
 SURE = 4.0  # sd of a statistic before it counts as more than chance
+MOSTLY = 0.5  # of a variance, chosen: an input that gives more limits it
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
 UNSETTLED = outcome(Why.NOT_CONVERGED)
 
@@ -130,8 +133,11 @@ def outcome_of(fitted: Fitted, residual: Residual, view: Visibility, factor: flo
 
 def parameters_of(
     fitted: Fitted, view: Visibility, factor: float, after: Smoothed | None
-) -> tuple[tuple[Parameter, ...], Floats]:
-    """Return the named values with their covariance, in the order in which they are reported."""
+) -> tuple[tuple[Parameter, ...], Floats, tuple[Reason, ...]]:
+    """Return the named values with their covariance, in the order in which they are reported.
+
+    And which inputs limit them.
+    """
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
     values[TURN] = logarithm(fitted.point.q0)
@@ -148,13 +154,46 @@ def parameters_of(
             first = after.onward @ after.covariance[0] @ after.onward.T
             fresh[-3:, -3:] = end[1] @ (after.covariance[-1] - first) @ end[1].T  # by jumps alone
     covariance = factor**2 * (rows @ view.covariance @ rows.T + fresh[: len(rows), : len(rows)])
+    inputs, shifts = reported_shifts(fitted, rows, after)
+    covariance += shifts.T @ shifts
     hidden = np.any(np.abs(rows[:, view.hidden]) > 0, axis=1)
     sd = np.where(hidden, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
     found = [
         Parameter(name, unit, float(reported[i]), float(sd[i]), not bool(hidden[i]))
         for i, (name, unit) in enumerate(labels)
     ]
-    return tuple(found), covariance
+    return tuple(found), covariance, limits_of(found, inputs, shifts)
+
+
+def limits_of(
+    parameters: Sequence[Parameter], inputs: Sequence[str], shifts: Floats
+) -> tuple[Reason, ...]:
+    """Return the inputs that give most of the variance of inertia or centre of mass."""
+    found: list[Reason] = []
+    for name in dict.fromkeys(inputs):
+        own = np.array([other == name for other in inputs])
+        square = np.sum(shifts[own] ** 2, axis=0)
+        limited = [p.name for p, x in zip(parameters, square, strict=True)
+                   if p.name in BODY and p.observable and x > MOSTLY * p.sd**2]  # fmt: skip
+        if limited:
+            found.append(Reason(Why.INPUT_LIMITS, (name, *limited)))
+    return tuple(found)
+
+
+def reported_shifts(
+    fitted: Fitted, rows: Floats, after: Smoothed | None
+) -> tuple[list[str], Floats]:
+    """Return inputs, and how each that is off by one sd moves what is reported: (inputs, rows)."""
+    end, names, found = end_rows(fitted, after), list[str](), list[Floats]()
+    for name, shift, varied in input_shifts(fitted):
+        moved = rows @ shift
+        if end is not None:
+            other = end_rows(varied, after)
+            assert other is not None
+            moved[-len(END) :] += (other[0] - end[0]) / STEP
+        names.append(name)
+        found.append(moved)
+    return names, np.array(found).reshape(-1, len(rows))
 
 
 def without_scale(view: Visibility, layout: Layout) -> Visibility:
@@ -200,7 +239,7 @@ def spread_of(fitted: Fitted, coloured: float = 1.0) -> tuple[tuple[Parameter, .
     covariance += by_sag(fitted, covariance)
     view = Visibility(covariance, np.zeros_like(held), (), False, np.zeros((len(held), 0)))
     after, residual = smoothed_residual(fitted)
-    return parameters_of(fitted, view, max(widening(residual), coloured), after)
+    return parameters_of(fitted, view, max(widening(residual), coloured), after)[:2]
 
 
 def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float = 1.0) -> Estimate:
@@ -214,10 +253,11 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     view = visibility_of(fitted)
     after, residual = smoothed_residual(fitted)
     factor = max(widening(residual), coloured)
-    parameters, covariance = parameters_of(fitted, view, factor, after)
+    parameters, covariance, limits = parameters_of(fitted, view, factor, after)
+    found = outcome_of(fitted, residual, view, factor)
     return Estimate(
         method,
-        outcome_of(fitted, residual, view, factor),
+        Outcome((*found.reasons, *limits)) if found.usable else found,
         parameters,
         covariance,
         residual,

@@ -5,6 +5,8 @@ first noisy rate, gives the first rate. The testbed's inertia is a prior: weak w
 without, because rates that are differences of attitudes bias a linear estimate of J towards zero.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from equipoise.dynamics.regressor import N_TORQUES
@@ -47,6 +49,20 @@ def start(
         q0, w0, pseudo_inertia.from_inertia(inertia_C), com,
         np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(len(layout.errors)), np.zeros(3),
     )  # fmt: skip
+
+
+def stated_body(testbed: Testbed, beside: Unknowns) -> Unknowns:
+    """Return the testbed's body, with the motion and the size of other unknowns, all zero."""
+    body = testbed.body
+    inertia_C = body.inertia_P - parallel_axis(body.mass, body.com)
+    return replace(
+        beside,
+        six=pseudo_inertia.from_inertia(inertia_C),
+        com=body.com,
+        torque=np.zeros_like(beside.torque),
+        sensor=np.zeros_like(beside.sensor),
+        error=np.zeros_like(beside.error),
+    )
 
 
 def possible_solution(

@@ -32,6 +32,7 @@ FIRST = (0.2, 0.2)  # rad, and of the greatest rate: sd of the first joints, cho
 SLOWEST = 0.01  # rad/s, chosen: a platform that hardly moves
 STAGES, TIGHTER = 6, 0.2  # chosen: to a ten-thousandth of the first sd
 EACH = 30  # evaluations
+TINY = 1e-9  # rad, rad/s: no joint is without an sd
 Joints = tuple[Jump, ...]
 
 
@@ -61,20 +62,53 @@ def missing(problem: Problem, point: Unknowns, motion: SampledMotion, cuts: Cuts
     return out
 
 
+def first_joined(
+    recording: Recording, testbed: Testbed, cut: Problem, body: Unknowns
+) -> tuple[Unknowns, Floats]:
+    """Return a body that begins as measured, and its jumps to each measured state."""
+    motion = sampled_motion(recording, testbed)
+    q0, w0 = state_near(motion, float(cut.line.t[0]))
+    point = replace(body, q0=q0, w0=w0)
+    return point, missing(cut, point, motion, posed(cut).cuts)
+
+
 def shot(
     recording: Recording, testbed: Testbed, posed_with: Callable[[Joints], Problem], body: Unknowns
 ) -> Unknowns:
     """Return a point near the optimum; ``body`` gives the first one, ``posed_with`` adds joints."""
-    motion = sampled_motion(recording, testbed)
     times = np.linspace(*recording.span, STRETCHES + 1)[1:-1]
-    fastest = max(float(np.linalg.norm(motion.w, axis=1).max()), SLOWEST)
-    cut = posed_with(joints(times, *FIRST))
-    q0, w0 = state_near(motion, float(cut.line.t[0]))
-    point = replace(body, q0=q0, w0=w0)
-    jumps = missing(cut, point, motion, posed(cut).cuts)
+    rates = sampled_motion(recording, testbed).w
+    fastest = max(float(np.linalg.norm(rates, axis=1).max()), SLOWEST)
+    point, jumps = first_joined(recording, testbed, posed_with(joints(times, *FIRST)), body)
     for stage in range(STAGES):
         tight = TIGHTER**stage
         cut = posed_with(joints(times, tight * FIRST[0], tight * FIRST[1] * fastest))
         found = settle(cut, point, jumps, EACH)
         point, jumps = found.point, found.jumps
     return point
+
+
+def shot_driven(
+    recording: Recording,
+    testbed: Testbed,
+    posed_with: Callable[[Joints], Problem],
+    body: Unknowns,
+    times: Series1,
+) -> tuple[Unknowns, Floats]:
+    """Return a point near the motion of a platform that something drives, and its jumps of rate.
+
+    Only the attitude's joints close; rates (rad/s, (K, 3)) go on to jump at ``times``, by what
+    drives the platform and, to begin with, by what the measured rates err.
+    """
+    point, jumps = first_joined(recording, testbed, posed_with(joints(times, *FIRST)), body)
+    turn_sd, rate_sd = (max(rms(part), TINY) for part in (jumps[:, :3], jumps[:, 3:]))
+    for stage in range(STAGES):
+        found = settle(posed_with(joints(times, turn_sd * TIGHTER**stage, rate_sd)), point, jumps,
+                       EACH)  # fmt: skip
+        point, jumps = found.point, found.jumps
+    return point, jumps[:, 3:]
+
+
+def rms(values: Floats) -> float:
+    """Return the root of the mean square."""
+    return float(np.sqrt(np.mean(values**2)))

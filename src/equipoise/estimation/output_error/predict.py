@@ -5,14 +5,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from equipoise.actuators.drive_errors import on_rails, rails_of
-from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import TURN_PER_STEP, timeline
 from equipoise.estimation.motion.sampled_motion import sampled_motion
-from equipoise.estimation.output_error.problem import forward_of
+from equipoise.estimation.output_error.problem import errors_of, forward_of
 from equipoise.estimation.output_error.trajectory import fastest_rate
 from equipoise.maths.attitude import exponential
 from equipoise.model import sensor_terms
@@ -43,7 +42,7 @@ def run(
         rows, sensor = recording.rate, testbed.gyro
     assert rows is not None
     t = measured_at(rows.t, sensor)
-    errors, rails = mass_errors(recording.masses, testbed.masses), rails_of(testbed.masses)
+    errors, rails = errors_of(recording, testbed), rails_of(testbed.masses)
     line = timeline(
         t, np.zeros(0), on_rails(recording.masses, len(rails)), len(rails),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),

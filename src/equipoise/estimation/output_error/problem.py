@@ -37,6 +37,7 @@ FINEST = 0.02  # rad
 LONGEST_STEP = 1.0  # s, chosen: a thirtieth of the shortest swing worth fitting
 KNOWN, KNOWN_COM = 1e-6, 1e-9  # of J, and m, chosen: what a stated sd of 0 is taken for
 ANCHOR = 10.0  # chosen: natural sizes by which what the data leave open may stray from the guess
+SHOWN = 1e-9  # m s, chosen: com off by so much for so long turns a cubesat's rate by 4e-6 rad/s
 NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
 
 
@@ -69,6 +70,9 @@ class Problem:
     prior: Prior
     limit: float  # Huber's, in sd; 0: none
     scale_open: bool  # nothing known changes: one moment of inertia is held for the search
+    recording: Recording  # of which it is the problem, arranged as the testbed has its masses
+    testbed: Testbed
+    longest: float  # s, of a step of integration
     jumps: tuple[Jump, ...] = UNCUT
 
 
@@ -207,7 +211,14 @@ def pose(
     maps = mass_maps(rails)
     columns = columns_of(layout)
     return Problem(testbed.body.mass, testbed.gravity, maps, errors, line, measurements, layout,
-                   columns, prior, limit, scale_open, jumps)  # fmt: skip
+                   columns, prior, limit, scale_open, recording, testbed, longest,
+                   jumps)  # fmt: skip
+
+
+def reposed(problem: Problem, recording: Recording, testbed: Testbed) -> Problem:
+    """Return the problem with other inputs: its unknowns, priors and jumps as they are."""
+    return pose(recording, testbed, problem.layout, problem.errors, problem.prior, problem.longest,
+                problem.limit, problem.scale_open, problem.jumps)  # fmt: skip
 
 
 def posed(problem: Problem) -> Posed:
@@ -219,13 +230,13 @@ def posed(problem: Problem) -> Posed:
                  cuts_of(problem.jumps, line.t, problem.layout))  # fmt: skip
 
 
-def changes(recording: Recording) -> bool:
+def changes(recording: Recording, masses_count: bool = True) -> bool:
     """Say whether anything known changes during a record: masses, stored momentum, torque."""
     masses, others = recording.masses, (recording.momentum, recording.torque)
     moved = masses is not None and bool(np.any(np.ptp(masses.values, axis=0) > 0))
-    return moved or any(c is not None and bool(np.any(c.values)) for c in others)
+    return (moved and masses_count) or any(c is not None and bool(np.any(c.values)) for c in others)
 
 
 def errors_of(recording: Recording, testbed: Testbed) -> MassErrors:
     """Return the errors of displacement that this recording can have."""
-    return mass_errors(recording.masses, testbed.masses)
+    return mass_errors(recording.masses, testbed.masses, SHOWN * testbed.body.mass)

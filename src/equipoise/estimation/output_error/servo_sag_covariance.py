@@ -86,16 +86,24 @@ def damping(problem: Problem, n: Vector3, sag: Floats, late: Floats) -> Vector3:
     return problem.gravity * (size * sag * late) @ across**2
 
 
-def by_sag(fitted: Fitted, covariance: Square) -> Square:
-    """Return what one sd of sag adds to a covariance in physical coordinates."""
+def descent_by_sag(fitted: Fitted, covariance: Square) -> Floats | None:
+    """Return b(s) - b(0) of one sd of sag; None where no mass sags."""
     problem, sag = fitted.problem, fitted.problem.errors.sag
     if not np.any(sag):
-        return np.zeros_like(covariance)
+        return None
     n, moment = downward(fitted), problem.maps.first_moment
     axes = moment / np.linalg.norm(moment, axis=1, keepdims=True)
     torque = fitted.point.torque.copy()
     torque[VISCOUS] += damping(problem, n.mean(axis=0), sag, lateness(fitted, covariance))
     hung = without_moment(problem, n @ axes.T * sag)
     there = evaluate(hung, replace(fitted.point, torque=torque), fitted.jumps)
-    shift = covariance @ (there.descent - fitted.at.descent)
+    return there.descent - fitted.at.descent
+
+
+def by_sag(fitted: Fitted, covariance: Square) -> Square:
+    """Return what one sd of sag adds to a covariance in physical coordinates."""
+    moved = descent_by_sag(fitted, covariance)
+    if moved is None:
+        return np.zeros_like(covariance)
+    shift = covariance @ moved
     return np.outer(shift, shift)

@@ -71,6 +71,7 @@ class Params:
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     robust: bool = False  # Huber's loss
     fineness: float = 1.0  # by which integration steps are shorter than estimates need
+    travels_count: bool = True  # masses went as recorded, so that travels give the scale
     typical: bool = False  # torques are as large as benches have them (``model.torque_terms``)
 
 
@@ -106,7 +107,7 @@ def is_scale_open(recording: Recording, testbed: Testbed, params: Params) -> boo
 
     A value that is held at zero does not: it is zero at any scale.
     """
-    if params.use_prior or changes(recording):
+    if params.use_prior or changes(recording, params.travels_count):
         return False
     values = dict(zip(BODY, core_of(testbed.body), strict=True))
     return not any(values[name] for name in params.hold)

@@ -32,6 +32,12 @@ class ReactionWheel(RecordTable):
     speed_rpm: float = Field(0.0, description="at the start")
     speed_noise_rpm: NotNegative = Field(0.0, description="one sd of a tachometer row")
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the torque")
+    gain_sd_percent: NotNegative = Field(
+        1.0, description="one sd of its momentum, chosen: a data sheet; 0: exact"
+    )
+    mounting_sd_deg: NotNegative = Field(
+        0.2, description="one sd about each direction across its axis, chosen: bolted on; 0: exact"
+    )
 
     def record(self, where: str) -> model.ReactionWheel:
         """Return the wheel."""
@@ -64,6 +70,12 @@ class ControlMomentGyro(RecordTable):
     asymmetry_kg_m2: float = Field(
         0.0, description="inertia of the same about the spin axis less about the third axis"
     )
+    gain_sd_percent: NotNegative = Field(
+        1.0, description="one sd of its momentum, chosen: a data sheet; 0: exact"
+    )
+    mounting_sd_deg: NotNegative = Field(
+        0.2, description="one sd about each direction across both axes, chosen: bolted on; 0: exact"
+    )
 
     def record(self, where: str) -> model.ControlMomentGyro:
         """Return the gyro, its spin axis exactly square to the gimbal's."""
@@ -81,6 +93,12 @@ class Magnetorquer(RecordTable):
     axis: Direction
     max_dipole_A_m2: Positive
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the dipole")
+    gain_sd_percent: NotNegative = Field(
+        1.0, description="one sd of its dipole, chosen: a data sheet; 0: exact"
+    )
+    mounting_sd_deg: NotNegative = Field(
+        0.2, description="one sd about each direction across its axis, chosen: bolted on; 0: exact"
+    )
 
 
 class JetPair(RecordTable):
@@ -93,6 +111,12 @@ class JetPair(RecordTable):
     torque_N_m: Positive = Field(description="while on")
     min_pulse_ms: NotNegative = 0.0
     lag_ms: NotNegative = Field(0.0, description="first-order, from the valve to the torque")
+    gain_sd_percent: NotNegative = Field(
+        1.0, description="one sd of its torque, chosen: a data sheet; 0: exact"
+    )
+    mounting_sd_deg: NotNegative = Field(
+        0.2, description="one sd about each direction across its axis, chosen: bolted on; 0: exact"
+    )
 
 
 class MagneticField(RecordTable):

@@ -52,6 +52,18 @@ class Platform(RecordTable):
         description="where the platform meets its stop; chosen: usual for a table on a hemisphere",
     )
     gravity_m_s2: Positive = Field(9.80665, description="standard gravity")
+    mass_sd_percent: NotNegative = Field(
+        0.5, description="one sd of mass_kg, chosen: weighed in parts; 0: exact"
+    )
+    gravity_sd_percent: NotNegative = Field(
+        0.1, description="one sd, chosen: standard gravity on most of the Earth; 0: exact"
+    )
+    momentum_sd_percent: NotNegative = Field(
+        1.0, description="one sd of momentum that is recorded as such, chosen: a data sheet"
+    )
+    torque_sd_percent: NotNegative = Field(
+        1.0, description="one sd of torque that is recorded as such, chosen: a data sheet"
+    )
 
     def record(self, where: str) -> MassProperties:
         """Return the body, whose inertia must be possible."""
@@ -97,6 +109,9 @@ class SlidingMass(RecordTable):
         1.0,
         description="first moment that it really gives, over mass_g times the commanded "
         "displacement; equipoise calibrate finds it",
+    )
+    mass_sd_percent: NotNegative = Field(
+        0.5, description="one sd of mass_g and gain, chosen: a kitchen scale; 0: exact"
     )
 
     def record(self, where: str) -> model.SlidingMass:

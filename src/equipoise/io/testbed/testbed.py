@@ -23,6 +23,11 @@ from equipoise.model.torque_terms import expand
 WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
 
 
+CLOCK: float = Field(
+    0.01, description="one sd of how fast its clock is, chosen: a crystal; 0: exact"
+)
+
+
 class Attitude(RecordTable):
     """A camera or motion capture."""
 
@@ -33,6 +38,7 @@ class Attitude(RecordTable):
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
     quantum_deg: NotNegative = Field(0.0, description="last digit of roll, pitch, yaw (3-2-1)")
+    clock_sd_percent: NotNegative = CLOCK
     plumb_sd_deg: NotNegative = Field(
         math.degrees(model.PLUMB_SD),
         description="one sd of how far its vertical may lean from gravity's, chosen: levelled by "
@@ -50,6 +56,7 @@ class Gyro(RecordTable):
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
     quantum_deg_s: NotNegative = Field(0.0, description="last digit of a rate")
+    clock_sd_percent: NotNegative = CLOCK
 
     def record(self, where: str) -> model.Gyro:
         """Return the gyro; InputError unless its noise is given once."""

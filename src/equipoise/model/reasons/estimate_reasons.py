@@ -46,6 +46,11 @@ class EstimateReason(Code):
 
     # Of the model that a record supports
     EVENTS_FOUND = "events_found", "It steps over {count:.0f} events, at {names} s."
+    EVENTS_AT_TRAVELS = (
+        "events_at_travels",
+        "Masses travel at the time of events ({names} s), so that such a travel gives no scale; "
+        "check the log of the masses.",
+    )
     TOO_MANY_EVENTS = "too_many_events", "So many events leave nothing to trust the numbers by."
     ATTITUDE_NOISE_OFF = (
         "attitude_noise_off",
@@ -70,7 +75,43 @@ class EstimateReason(Code):
         "That torque is {share:.2g} times what gravity does: something drives the platform that "
         "the model does not know, do not trust the numbers.",
     )
+    INPUT_LIMITS = (
+        "input_limits",
+        "How well the input '{0}' is known limits {rest}.",
+    )
     OUTLIERS_REMOVED = "outliers_removed", "{rows:.0f} outlying rows are left out."
+    RATES_UNRESOLVED = (
+        "rates_unresolved",
+        "{rows:.0f} gyro rows are left out: masses travelled between the rows of their track.",
+    )
+
+    # Of several recordings of one platform
+    FITTED_JOINTLY = (
+        "fitted_jointly",
+        "{count:.0f} runs are fitted jointly: inertia and centre of mass are common to all; "
+        "starts, biases and moves are each run's own.",
+    )
+    RUNS_SCATTERED = (
+        "runs_scattered",
+        "The runs scatter more than their intervals allow: intervals are widened {widening:.2g} "
+        "times.",
+    )
+    RUNS_DISAGREE = (
+        "runs_disagree",
+        "The runs disagree, by {widening:.2g} times what their intervals allow: the platform or "
+        "the bench was not the same in all of them. There is no joint estimate; their means and "
+        "scatter stand by themselves.",
+    )
+    RUNS_LEFT_OUT = "runs_left_out", "Left out, as not usable by themselves: {names}."
+    TOO_FEW_RUNS = (
+        "too_few_runs",
+        "{usable:.0f} of {count:.0f} runs can be used by itself; a joint fit needs two.",
+    )
+    CROSS_CHECKS_DISAGREE = (
+        "cross_checks_disagree",
+        "But cross-checks at the same inertia disagree by up to {off:.0f} sd ({names}): one of "
+        "them is wrong, do not trust the numbers.",
+    )
 
     # Of a centre of mass that drifts
     DRIFTS = (

@@ -42,6 +42,7 @@ class StepReason(Code):
         "Carried out the planned manoeuvre of {duration:g} s.",
     )
     ESTIMATED_BY = "estimated_by", "{0}:"  # the estimate's own reasons follow
+    RUN_ESTIMATED = "run_estimated", "{0}:"  # the estimate's own reasons follow
     COM_AT = (
         "com_at",
         "The centre of mass is at ({com_x:um .2f} +/- {sd_x:um .2f}, {com_y:um .2f} +/- "

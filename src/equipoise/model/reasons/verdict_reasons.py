@@ -7,8 +7,8 @@ WHERE = (
     "{com_z:um .2f} +/- {sd_z:um .2f}) um"
 )
 HOLD = (
-    "held for {duration:min .3g} min; at most ({off_x:um .1f}, {off_y:um .1f}, {off_z:um .1f}) um "
-    "from the target."
+    "held for {duration:min .3g} min; at most ({off_x:um .1f} +/- {sd_x:um .1f}, {off_y:um .1f} "
+    "+/- {sd_y:um .1f}, {off_z:um .1f} +/- {sd_z:um .1f}) um from the target"
 )
 TORQUE = (
     "gravity's torque within {tilt:deg g} deg of level, rms, is {found:uN m plain} uN m (95 %: "
@@ -23,6 +23,7 @@ UNPASSABLE = (
     "with better sensors."
 )
 TOO_NEAR = "the value is too near to the limit to be sure."
+SCATTER = "(chi-square {chi_square:.3g} of {freedom:.3g} expected, probability {probability:.2g})."
 MISSED = "The requirement of {required:uN m plain} uN m cannot be met:"
 
 
@@ -45,8 +46,12 @@ class VerdictReason(Code):
         f"Failed: {WHERE}, which is not where the last move should have left it.",
     )
     ESTIMATE_UNUSABLE = "estimate_unusable", "Cannot tell:"  # the estimate's own reasons follow
-    HELD = "held", f"Passed: {HOLD}"
-    NOT_HELD = "not_held", f"Failed: {HOLD}"
+    HELD = "held", f"Passed: {HOLD}, within tolerance on every axis all the time."
+    HOLD_UNDECIDED = (
+        "hold_undecided",
+        f"Cannot tell: {HOLD}; {{names}} not known well enough to be sure.",
+    )
+    NOT_HELD = "not_held", f"Failed: {HOLD}; {{names}} outside the tolerance."
 
     # On a run that was broken off
     TILTED = "tilted", "Stopped: the platform tilts to its limit."
@@ -82,6 +87,30 @@ class VerdictReason(Code):
         "All of it goes with the inertia, which is known to {sd:% .2g} %.",
     )
 
+    # On whether several runs agree
+    RUNS_AGREE = (
+        "runs_agree",
+        f"Passed: {{count:.0f}} runs scatter no more than their intervals allow {SCATTER}",
+    )
+    RUNS_SCATTER = (
+        "runs_scatter",
+        f"Failed: {{count:.0f}} runs scatter {{factor:.2g}} times as much as their intervals allow "
+        f"{SCATTER}",
+    )
+    RUNS_DEVIATE = "runs_deviate", "Most of it comes from {both}."
+    RUNS_INCOMPARABLE = (
+        "runs_incomparable",
+        "Cannot tell: the {count:.0f} runs show nothing in common.",
+    )
+    RUNS_NOT_FITTED = "runs_not_fitted", "Cannot tell whether runs agree: there is no joint fit."
+
+    # On a series of balancings
+    EVERY_RUN_PASSED = "every_run_passed", "Passed: each of {count:.0f} runs did."
+    SOME_RUNS_FAILED = (
+        "some_runs_failed",
+        "Failed: {failed:.0f} of {count:.0f} runs did not pass, number {names}.",
+    )
+
     # On a design
     NOTHING_REQUIRED = (
         "nothing_required",
@@ -90,6 +119,11 @@ class VerdictReason(Code):
     REQUIREMENT_MET = (
         "requirement_met",
         "{expected:uN m plain} uN m are expected; {required:uN m plain} uN m are required.",
+    )
+    EXPECTED_NEAR_LIMIT = (
+        "expected_near_limit",
+        "Cannot tell: {expected:uN m plain} uN m are expected, and true to {accuracy:% .3g} %; "
+        "{required:uN m plain} uN m are required.",
     )
     OUT_OF_REACH = (
         "out_of_reach",

@@ -3,6 +3,7 @@
 import numpy as np
 
 from equipoise.model.arrays import Vector3
+from equipoise.model.criterion import DESIGN, Interval
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 from equipoise.model.units import MM, PERCENT, UM, UN_M
@@ -13,6 +14,7 @@ from equipoise.planning.sizing.expected_torque import Line
 from equipoise.planning.sizing.reachable_set import Reach, tolerance, unreachable
 from equipoise.planning.sizing.sensitivity import MASS_LENGTHS, Bettered
 
+ACCURACY = 0.15  # of a torque, chosen: within it predictions agree with Monte Carlo
 ENOUGH = 0.95  # of platforms as stated, chosen: as many as a law has to balance in ``compare``
 NOTABLE = 0.01  # of the torque, chosen: a change that brings less is not worth a line
 WAYS = ("nothing", "one line", "a plane")
@@ -87,14 +89,19 @@ def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]
     numbers = {"expected": budget.torque, "within": budget.within}
     if required is None:
         return Verdict(one_reason(Why.NOTHING_REQUIRED, **numbers))
-    numbers["required"] = required
+    numbers |= {"required": required, "accuracy": ACCURACY}
     if budget.within < ENOUGH:
         return Verdict(one_reason(Why.OUT_OF_REACH, **numbers))
-    if budget.torque <= required:
-        return Verdict(one_reason(Why.REQUIREMENT_MET, **numbers))
+    answer = DESIGN.answer(predicted(budget.torque), required, numbers)
     enough = [change.name for change in better if change.torque <= required]
-    code = Why.MET_BY_ONE_CHANGE if enough else Why.MET_BY_NO_CHANGE
-    return Verdict(one_reason(code, *enough, **numbers))
+    if answer.code is DESIGN.refuted and enough:
+        return Verdict(one_reason(Why.MET_BY_ONE_CHANGE, *enough, **numbers))
+    return Verdict((answer,))
+
+
+def predicted(torque: float) -> Interval:
+    """Return between which torques (N m) the expected one lies."""
+    return Interval((1 - ACCURACY) * torque, (1 + ACCURACY) * torque)
 
 
 def worth_listing(budget: Budget, better: tuple[Bettered, ...]) -> tuple[Bettered, ...]:

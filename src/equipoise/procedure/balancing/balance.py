@@ -41,15 +41,18 @@ FIRST_MEASUREMENT = 1.6  # s, before anything is fitted
 NOTABLE = 20e-6  # m below the target, beyond what a motor step leaves
 DEEPER = 80e-6  # m, the least way down
 MEASUREMENT = 0.4  # s between fits
-KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
+KNOWN = 0.3  # of the tolerance: an sd at which a move is worth making
+AWAY = 0.1  # of the offset: the same for the first move, which is to learn from
+BACK = 0.03  # of the offset, chosen: for later ones, since time spent below determines the height
 INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move is known
 FIRM = 0.99  # probability of being within tolerance at which to leave a move unused
-SPENT = 0.97  # the same with no move left, or no time for one
+SPENT = 0.98  # the same with no move left, or no time for one; a verdict passes from 0.975
 TRIM = 0.3  # of the tolerance: an offset that the last move, when its time comes, is spent on
 LATEST = 0.97  # of the time, less SETTLE: when the last move is made at the latest
 LAST = 0.25  # of the tolerance: the same for the last move
 HELPS = 0.9  # of the predicted tilt, chosen: that a move against tilting must reach
 SETTLE = 20.0  # s to keep for the measurement after the last move
+RETURN = 45.0  # s, chosen: to keep for a way below, a stay there, the way back and SETTLE
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,7 +117,7 @@ def reason_to_stop(
     movable = len(progress.moves) < options.max_moves
     early = bench.time - began < LATEST * (options.max_time - SETTLE)
     sure = FIRM if movable and early else SPENT
-    if judged and is_within(knowledge, options.target, options.tolerance, sure):
+    if judged and is_within(knowledge, options, sure):
         return StepReason.WITHIN_TOLERANCE
     if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
         return StepReason.ESTIMATE_UNUSABLE
@@ -143,7 +146,8 @@ def decide(
             return option
     if not (progress.braking or ripe(bench, progress, options, began)):
         return None
-    learning = worth_learning(knowledge, testbed, left, options)
+    hurried = bench.time - began > options.max_time - RETURN
+    learning = not hurried and worth_learning(knowledge, testbed, left, options)
     aim = below(knowledge, options.target, testbed) if learning else options.target
     option = option_for(view, aim)
     pressed = bench.time - began > options.max_time - SETTLE
@@ -202,7 +206,8 @@ def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float
     share = LATEST if left == 1 else 1 - left / (options.max_moves + 1)
     late = bench.time - began > share * (options.max_time - SETTLE)
     enough = LAST if left == 1 else KNOWN
-    known = bool(np.all((sd < enough * options.tolerance) | ((sd < 0.1 * off) & (left > 1))))
+    rough = AWAY if left == options.max_moves else BACK
+    known = bool(np.all((sd < enough * options.tolerance) | ((sd < rough * off) & (left > 1))))
     worth = off > TRIM * options.tolerance if late and left == 1 else off + sd > options.tolerance
     return bool(np.any(worth)) and (known or late) and fresh_enough(knowledge, progress.still_since)
 
@@ -234,7 +239,7 @@ def final(bench: Bench, progress: Progress, options: BalanceOptions, why: StepRe
     """Return the verification, or the stop with its reason."""
     knowledge = progress.knowledge
     last = progress.moves[-1] if progress.moves else None
-    judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
+    judged = verdict(knowledge, last, progress.still_since, options)
     if why is StepReason.TILTED:
         judged = Verdict(one_reason(VerdictReason.TILTED), knowledge.com, knowledge.sd)
     reasons = (Reason(why), *judged.reasons)

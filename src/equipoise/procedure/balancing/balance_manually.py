@@ -121,11 +121,10 @@ def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testb
 
 def verdict_on(observed: Progress, options: HandOptions) -> Verdict:
     """Return the verdict after a recording."""
-    com, sd = observed.posterior.com, observed.posterior.sd
-    outcome = observed.shown.estimate.outcome
+    posterior, outcome = observed.posterior, observed.shown.estimate.outcome
     if not outcome.usable:
-        return unusable(outcome, com, sd)
-    return judged(com, sd, options.target, options.tolerance)
+        return unusable(outcome, posterior.com, posterior.sd)
+    return judged(posterior.com, posterior.com_covariance, options)
 
 
 def planned(testbed: Testbed, posterior: Posterior, loading: Ints, options: HandOptions) -> Placing:

@@ -2,6 +2,9 @@
 
 The tracker starts from the estimate of balancing, inertia and its uncertainty included; the masses
 follow whenever one of their steps brings the centre of mass closer.
+
+It is judged at every measurement by the tracker's posterior: held is what is within tolerance for
+sure each time (``model.criterion.jointly``).
 """
 
 from collections.abc import Iterator
@@ -24,11 +27,13 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
+from equipoise.procedure.balancing.hold_verdict import Measured, verdict_on
 from equipoise.procedure.steps.joint_fit import Knowledge
 from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
 from equipoise.procedure.steps.sampler import last_row
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import state_now
+from equipoise.procedure.steps.verify import Aim
 
 MEASUREMENT = 5.0  # s between decisions
 FINER = 1 / 3  # of the tolerance, chosen: how closely to balance first
@@ -40,12 +45,11 @@ GAIN = 0.1  # of the tolerance: the least improvement of the worst axis by a mov
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class HoldOptions:
-    """For how long, where, and how closely."""
+class HoldOptions(Aim):
+    """The aim, and for how long."""
 
-    duration: float  # s
-    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
     tolerance: Vector3 = field(default_factory=lambda: np.full(3, 3 * UM))  # m
+    duration: float = field(kw_only=True)  # s
 
     @property
     def balancing(self) -> BalanceOptions:
@@ -83,12 +87,9 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
     return replace(tracker.first_state(t, q, testbed, posterior), rate=rate)
 
 
-def standing(
-    state: tracker.State, testbed: Testbed, displacement: Floats
-) -> tuple[Vector3, Vector3]:
-    """Return the centre of mass with the masses as they stand, and its sd (m)."""
-    shift = shift_by(testbed, displacement)
-    return state.com + shift, np.sqrt(np.diag(state.covariance)[COM])
+def standing(state: tracker.State, testbed: Testbed, displacement: Floats) -> Measured:
+    """Return the posterior of the centre of mass with the masses as they stand."""
+    return Measured(state.com + shift_by(testbed, displacement), state.covariance[COM, COM])
 
 
 def before_moving(
@@ -98,9 +99,9 @@ def before_moving(
 
     The tracker does not estimate single stops, so only their accuracy is known.
     """
-    com, _ = standing(state, testbed, displacement)
+    now = standing(state, testbed, displacement)
     leaving = (goal != displacement) & (displacement != 0)  # at home a mass has no error
-    return com, state.covariance[COM, COM] + stops_covariance(testbed, leaving)
+    return now.com, now.covariance + stops_covariance(testbed, leaving)
 
 
 def correction(
@@ -153,16 +154,17 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
     testbed, end = bench.testbed, bench.time + options.duration
     params = tracker.Params(torque=without_drift(knowledge.fitted.point.torque))
     state, displacement = first_posterior(knowledge, testbed), knowledge.displacement
-    worst = np.zeros(3)
+    course = [standing(state, testbed, displacement)]
     while bench.time < end - 1e-9:
         fresh = bench.read(min(MEASUREMENT, end - bench.time))
         state = tracker.track(fresh, testbed, params, state).end
         displacement = last_row(fresh.masses, displacement)
-        com, _ = standing(state, testbed, displacement)
-        worst = np.maximum(worst, np.abs(com - options.target))
+        course.append(standing(state, testbed, displacement))
+        com = course[-1].com
         if tilted(fresh, testbed):
             bench.stop()
-            break
+            yield stop_step(bench, course[-1])
+            return
         goal = correction(com, displacement, testbed, options)
         if goal is None:
             continue
@@ -174,8 +176,8 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
             bench.move(move.targets)
             why = one_reason(move.reason, **axes_of("was", com), travel=move.travel)
             yield Step("move", bench.time, why, fresh, move=move)
-    last = standing(state, testbed, displacement)
-    yield verdict_step(bench, options, last, worst, bench.time < end - 1e-9)
+    judged = verdict_on(course, options, options.duration)
+    yield Step("verify", bench.time, judged.reasons, verdict=judged)
 
 
 def without_drift(torque: Floats) -> Floats:
@@ -185,19 +187,7 @@ def without_drift(torque: Floats) -> Floats:
     return kept
 
 
-def verdict_step(
-    bench: Bench,
-    options: HoldOptions,
-    posterior: tuple[Vector3, Vector3],
-    worst: Vector3,
-    tilted_out: bool,
-) -> Step:
-    """Return the verdict on the whole hold; ``posterior`` is a centre of mass and its sd (m)."""
-    if tilted_out:
-        reasons = one_reason(VerdictReason.TILTED)
-    else:
-        held = bool(np.all(worst <= options.tolerance))
-        code = VerdictReason.HELD if held else VerdictReason.NOT_HELD
-        reasons = one_reason(code, duration=options.duration, **axes_of("off", worst))
-    verdict = Verdict(reasons, *posterior)
-    return Step("stop" if tilted_out else "verify", bench.time, reasons, verdict=verdict)
+def stop_step(bench: Bench, last: Measured) -> Step:
+    """Return the stop of a hold whose platform tilts too much."""
+    verdict = Verdict(one_reason(VerdictReason.TILTED), last.com, last.sd)
+    return Step("stop", bench.time, verdict.reasons, verdict=verdict)

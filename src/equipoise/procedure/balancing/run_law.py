@@ -212,7 +212,7 @@ def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
         bench.stop()
         return stop_step(bench)
     knowledge = learn(None, fresh, bench.testbed.without("drift"))
-    judged = verdict(knowledge, None, began, options.target, options.tolerance)
+    judged = verdict(knowledge, None, began, options)
     return verdict_step(bench.time, judged, judged.reasons, knowledge.recording,
                         knowledge.estimate)  # fmt: skip
 

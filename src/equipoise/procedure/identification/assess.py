@@ -6,7 +6,17 @@ have the typical sd of benches where the record does not determine them. From th
 of gravity over a range of tilts, with sag, and the verdict on a requirement.
 
 Simple metrics stand beside it: torque, energy, periods (``swing_metrics``), each with its own sd,
-all at the inertia of the fit. Where they disagree, one of them is wrong.
+all at the inertia of the fit. Where they disagree (``cross_checks``), one of them is wrong, and the
+estimate is not trustworthy: no requirement is met by it.
+
+An sd of the centre of mass counts that of the inertia, whose prior is the testbed's, as that of
+``identify`` with a prior does:
+
+    var r = var(r | J) + K var(J) K^T,      K = cov(r, J) var(J)^-1
+
+Motion shows m g r against J, so along the vertical K var(J) K^T is that of the scale, r^2 times its
+relative variance. The part without it, var(r | J), is for comparisons at one and the same J alone:
+between records, and against the truth, J errs, by as much as it is said to.
 
 Tilts well outside the recorded range are not assessed. The part of r along gravity that no swing
 shows is unobservable; its uncertainty goes into every number.
@@ -34,6 +44,13 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import among
 from equipoise.model.verdict import Verdict, VerdictOutcome, outcome_of
+from equipoise.procedure.identification.cross_checks import (
+    KNOWN,
+    CheckedFit,
+    CrossCheck,
+    checked,
+    cross_checks,
+)
 from equipoise.procedure.identification.requirement import Judged, Requirement, judged
 from equipoise.procedure.identification.swing_metrics import SwingMetrics, swing_metrics
 from equipoise.procedure.steps.clean_record import sound
@@ -70,6 +87,7 @@ class Assessment:
     offset: Bounded  # m, of com from the target
     torque: InRange
     metrics: SwingMetrics
+    checks: tuple[CrossCheck, ...]  # none of an estimate that cannot be used
     judged: tuple[Judged, ...]
 
     @property
@@ -94,13 +112,8 @@ def assess(
     """Yield Steps; the last has the verdict if there is a requirement. Returns the Assessment."""
     end = recording.span[1]
     yield measurement_step(end, recording, StepReason.RECORDING_READ)
-    fit = fit_of(recording, testbed, options)
-    estimate = fit[0]
-    yield estimate_step(end, estimate)
-    body = testbed.body
-    if estimate.outcome.usable:
-        body = replace(body, com=estimate.com, inertia_P=estimate.inertia_P)
-    found = assessment_of(replace(testbed, body=body), recording, options, fit)
+    found = assessment_of(testbed, recording, options, fit_of(recording, testbed, options))
+    yield estimate_step(end, found.estimate)
     yield verification(found, end)
     return found
 
@@ -122,13 +135,16 @@ def fit_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Fi
 
 
 def assessment_of(
-    testbed: Testbed, recording: Recording, options: AssessOptions, model: Fit
+    stated: Testbed, recording: Recording, options: AssessOptions, model: Fit
 ) -> Assessment:
-    """Return the assessment of a platform whose parameters and covariance are known."""
+    """Return the assessment of a platform by a fit of its record."""
     estimate, spread = model
-    pull = pull_of(*spread)
-    weight, off = testbed.weight, pull.mean[:3] - options.target
-    torque = torque_in_range(pull, weight, testbed.up, options.tilt)
+    testbed, pull = with_body_of(estimate, stated), pull_of(*spread)
+    metrics = swing_metrics(*sound(recording, testbed), damping_of(estimate))
+    checks = checks_of(estimate, pull, metrics, testbed.weight)
+    estimate = checked(estimate, checks)
+    off = pull.mean[:3] - options.target
+    torque = torque_in_range(pull, testbed.weight, testbed.up, options.tilt)
     offset = bounded_length(off, pull.covariance[:3, :3], np.eye(3), pull.unscaled[:3, :3])
     return Assessment(
         testbed,
@@ -139,9 +155,33 @@ def assessment_of(
         inertia_doubt(*spread),
         offset,
         torque,
-        swing_metrics(*sound(recording, testbed)),
-        answers_of(options, torque, offset) if estimate.outcome.usable else (),
+        metrics,
+        checks,
+        () if estimate.outcome.warns else answers_of(options, torque, offset),
     )
+
+
+def with_body_of(estimate: Estimate, testbed: Testbed) -> Testbed:
+    """Return the testbed with the body that was found, where that can be used."""
+    if not estimate.outcome.usable:
+        return testbed
+    return replace(
+        testbed, body=replace(testbed.body, com=estimate.com, inertia_P=estimate.inertia_P)
+    )
+
+
+def damping_of(estimate: Estimate) -> tuple[str, ...]:
+    """Return the damping that a fit estimated."""
+    return tuple(name for name in KNOWN if estimate.has(name))
+
+
+def checks_of(
+    estimate: Estimate, pull: Pull, metrics: SwingMetrics, weight: float
+) -> tuple[CrossCheck, ...]:
+    """Return what the metrics say of an estimate that can be used; ``weight`` is m g in N."""
+    if not estimate.outcome.usable:
+        return ()
+    return cross_checks(metrics, CheckedFit(estimate, pull.mean[:3], pull.unscaled[:3, :3], weight))
 
 
 def pull_of(parameters: tuple[Parameter, ...], covariance: Square) -> Pull:
@@ -177,7 +217,7 @@ def verification(found: Assessment, time: float) -> Step:
     sd = np.sqrt(np.diag(found.com_covariance))
     outcome, options = found.estimate.outcome, found.options
     requested = options.require_torque is not None or options.require_offset is not None
-    if not outcome.usable:
+    if outcome.warns:
         reasons = (*one_reason(VerdictReason.ESTIMATE_UNUSABLE), *outcome.reasons)
         return Step("verify", time, reasons,
                     verdict=Verdict(reasons, found.com, sd) if requested else None)  # fmt: skip

@@ -1,26 +1,21 @@
 """Whether a platform meets a requirement: passed, failed, or undecided by the record.
 
-    passed        the 97.5 % upper bound is within the limit
-    failed        the lower bound of the 95 % interval is beyond it
-    undecided     neither; with the floor, the least value that this record could have proven
-
-A platform just at its limit passes in at most 2.5 % of records, however good or poor they are:
-bounds are of a length, which counts every direction in which the centre of mass may be off
-(``maths.gaussian_length``).
+By the rule of ``model.criterion``; an undecided answer comes with the floor, the least value that
+this record could have proven. Bounds are of a length, which counts every direction in which the
+centre of mass may be off (``maths.gaussian_length``).
 """
 
 from dataclasses import dataclass
 from typing import Literal
 
 from equipoise.maths.gaussian_length import Bounded
+from equipoise.model.criterion import OFFSET, TORQUE, Criterion, VerdictOutcome
 from equipoise.model.reasons.reason import Reason, sentence_of
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
-from equipoise.model.verdict import VerdictOutcome, outcome_of
+from equipoise.model.verdict import outcome_of
 
 Quantity = Literal["torque", "offset"]
-MET = {"torque": Why.TORQUE_MET, "offset": Why.OFFSET_MET}
-EXCEEDED = {"torque": Why.TORQUE_EXCEEDED, "offset": Why.OFFSET_EXCEEDED}
-UNDECIDED = {"torque": Why.TORQUE_UNDECIDED, "offset": Why.OFFSET_UNDECIDED}
+JUDGED: dict[Quantity, Criterion] = {"torque": TORQUE, "offset": OFFSET}
 FLOOR_BEYOND_LIMIT = {
     "torque": Why.TORQUE_FLOOR_BEYOND_LIMIT,
     "offset": Why.OFFSET_FLOOR_BEYOND_LIMIT,
@@ -60,10 +55,8 @@ def judged(requirement: Requirement, found: Bounded) -> Judged:
     """Return the answer with its reasons."""
     numbers = {"found": found.value, "low": found.low, "high": found.high,
                "limit": requirement.limit, "tilt": requirement.tilt}  # fmt: skip
-    codes = MET if found.high <= requirement.limit else UNDECIDED
-    codes = EXCEEDED if found.low > requirement.limit else codes
-    reasons = [Reason(codes[requirement.quantity], (), numbers)]
-    if codes is UNDECIDED:
+    reasons = [JUDGED[requirement.quantity].answer(found, requirement.limit, numbers)]
+    if outcome_of(reasons) is VerdictOutcome.UNDECIDED:
         reasons.append(doubt(requirement, found))
     return Judged(requirement, found, tuple(reasons))
 

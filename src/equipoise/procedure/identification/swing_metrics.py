@@ -5,8 +5,9 @@
     period    h from the period of each swing; ``spectrum`` shows where they were sought
 
 All take the inertia as given: its error is common to all of them. They use the record after the
-last mass had stopped. They are an independent check of the trajectory fit: none of them shares its
-model of the sensors. Their limits are those that their own files state.
+last mass had stopped. They are an independent check of the trajectory fit (``cross_checks``): none
+of them shares its model of the sensors. Torque and energy estimate damping beside the centre of
+mass where the fit has it. Their limits are those that their own files state.
 """
 
 from dataclasses import dataclass, replace
@@ -18,7 +19,8 @@ from scipy.signal import savgol_coeffs
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
 from equipoise.assessment.metrics.period import swings
 from equipoise.assessment.metrics.spectrum import Spectrum, spectrum
-from equipoise.assessment.metrics.swing_height import Hanging, hanging
+from equipoise.assessment.metrics.spin_lines import heading, spin_lines
+from equipoise.assessment.metrics.swing_height import Hanging, Turning, hanging, spin_doubt
 from equipoise.assessment.metrics.swing_modes import across
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
@@ -31,8 +33,11 @@ from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.estimation.regression.solvers.least_squares import least_squares
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
+from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import INERTIA, Estimate
 from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
+from equipoise.model.reasons.cross_check_reasons import CrossCheckReason as Why
+from equipoise.model.reasons.reason import Reason, one_reason, sentence_of
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
@@ -42,6 +47,7 @@ SHORTEST = 0.51  # s, the window of ``torque_savitzky_golay``
 FOR_NOISE = 8  # pairs of draws, chosen: the sd of the residual torque is known to a fifth
 STANDS = 5e-4  # m, chosen: a soft drive that gives way by less stands still
 FEWEST = 12  # rows, as for every linear method
+SWINGS = "swings"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,7 +62,12 @@ class SwingMetrics:
     energy_fit: Estimate | None
     spectrum: Spectrum | None
     hanging: tuple[Hanging, ...]
-    quiet: str  # why there is no period; empty: there is one
+    without_period: tuple[Reason, ...]  # why there is no period; empty: there is one
+
+    @property
+    def quiet(self) -> str:
+        """Return why there is no period, for a person; empty: there is one."""
+        return sentence_of(self.without_period)
 
 
 def standing_part(recording: Recording) -> Recording:
@@ -89,15 +100,17 @@ def is_driven(recording: Recording) -> bool:
     return any(c is not None and bool(np.any(np.ptp(c.values, axis=0) > 0)) for c in inputs)
 
 
-def swing_metrics(recording: Recording, testbed: Testbed) -> SwingMetrics:
-    """Return the metrics; the testbed's inertia counts as known."""
+def swing_metrics(
+    recording: Recording, testbed: Testbed, damping: tuple[str, ...] = ()
+) -> SwingMetrics:
+    """Return the metrics; the testbed's inertia counts as known, terms of ``damping`` do not."""
     part = standing_part(arranged(recording, testbed.mass_names))
     start, end = part.span
-    posed = posed_of(*as_one_body(part, testbed), Options())
+    posed = posed_of(*as_one_body(part, testbed), Options(damping))
     if len(posed.motion.t) < FEWEST:
-        few = f"only {len(posed.motion.t)} rows since the masses stopped"
+        few = one_reason(Why.FEW_ROWS, SWINGS, rows=len(posed.motion.t))
         return SwingMetrics(end - start, 0.0, None, None, None, None, None, (), few)
-    found, observed, quiet = periods(posed)
+    found, observed, without = periods(posed)
     seconds = window_for(found, end - start, posed)
     draws = tuple(pairs(posed, Drawn()))
     slopes, some = torque(partial(savitzky_golay, seconds=seconds)), draws[:FOR_NOISE]
@@ -110,7 +123,7 @@ def swing_metrics(recording: Recording, testbed: Testbed) -> SwingMetrics:
         fit("energy", energy, posed, draws),
         observed,
         found,
-        quiet,
+        without,
     )
 
 
@@ -124,19 +137,37 @@ def fit(name: str, formulation: Formulation, posed: Posed, draws: Draws) -> Esti
     return estimate(METHODS[name].card, Linear(formulation, least_squares), posed, INERTIA, draws)
 
 
-def periods(posed: Posed) -> tuple[tuple[Hanging, ...], Spectrum, str]:
+def periods(posed: Posed) -> tuple[tuple[Hanging, ...], Spectrum, tuple[Reason, ...]]:
     """Return the heights by the swings, their spectrum, and why there are none."""
-    motion, inertia_P = posed.motion, posed.testbed.body.inertia_P
+    motion = posed.motion
     n = -to_matrix(motion.q)[:, 2, :]
-    down = n.mean(axis=0) / np.linalg.norm(n.mean(axis=0))
+    down = direction(n.mean(axis=0))
     tilts = n @ across(down).T
     observed = spectrum(motion.t, tilts)
     if is_driven(posed.recording):
-        return (), observed, "wheels or known torques drive the platform"
-    duration = float(motion.t[-1] - motion.t[0])
-    spin = -float(motion.w.mean(axis=0) @ down)
-    found = hanging(swings(motion.t, tilts), duration, inertia_P, down, spin)
-    return found, observed, "" if found else f"no swing of {duration:.3g} s or less"
+        return (), observed, one_reason(Why.DRIVEN, SWINGS)
+    duration, spin = float(motion.t[-1] - motion.t[0]), -float(motion.w.mean(axis=0) @ down)
+    lines = spin_lines(motion.t, heading(motion.t, motion.q, across(down)[0], spin))
+    found = swings(motion.t, tilts, lines)
+    if found:
+        down = direction(down + across(down).T @ found[0].centre)
+    doubt = spin_doubt(found, spin)
+    turning = Turning(duration, posed.testbed.body.inertia_P, down, spin, doubt, lines)
+    heights = hanging(found, turning)
+    return heights, observed, () if heights else no_period(turning)
+
+
+def no_period(turning: Turning) -> tuple[Reason, ...]:
+    """Return why a record of free motion shows no period."""
+    if not turning.lines.turns:
+        return one_reason(Why.NO_SWING, SWINGS, duration=turning.duration)
+    period = 2 * np.pi / abs(turning.spin)
+    return one_reason(Why.NO_SWING_BESIDE_SPIN, SWINGS, duration=turning.duration, period=period)
+
+
+def direction(vector: Vector3) -> Vector3:
+    """Return the unit vector."""
+    return vector / np.linalg.norm(vector)
 
 
 def window_for(found: tuple[Hanging, ...], duration: float, posed: Posed) -> float:

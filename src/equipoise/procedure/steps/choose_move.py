@@ -16,7 +16,6 @@ CALM = 0.5  # of the tilt limit, chosen: a peak at which the moment does not mat
 WAITS = (0.6, 1.2, 2.4, 4.0, 6.0, 9.0, 12.0)  # s
 HASTE = 30.0  # mm per s, weighs time against travel when a brake is needed
 SIDEWAYS = (0.0, 0.5, 1.0, 1.5)  # of the present sideways offset, to the far side
-CATCH_DOWN = 60e-6  # m below the target: stiffer, and soon reached
 DOWN = 100e-6  # m below the target: stiffer, and a larger known change to learn the scale from
 
 
@@ -53,7 +52,7 @@ def catches(view: Outlook, target: Vector3, may_brake: bool) -> Iterator[Option]
     up, offset = view.testbed.up, view.knowledge.com - target
     sideways = offset - (offset @ up) * up
     for share in SIDEWAYS if may_brake else SIDEWAYS[:1]:
-        aim = target - share * sideways - CATCH_DOWN * up
+        aim = target - share * sideways - DOWN * up
         yield option_for(view, aim, share > 0, HASTE)
 
 

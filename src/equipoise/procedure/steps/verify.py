@@ -1,4 +1,8 @@
-"""Verify that the centre of mass is at its target, on data since the last move."""
+"""Verify that the centre of mass is at its target, on data since the last move.
+
+Judged is the share of the tolerances that com - target uses, all axes together with their
+covariance (``maths.gaussian_box``), by the rule of ``model.criterion``.
+"""
 
 from dataclasses import dataclass, field
 
@@ -6,7 +10,10 @@ import numpy as np
 from scipy.special import ndtr
 
 from equipoise.control.plant.swing_estimates import drift_of
-from equipoise.model.arrays import Vector3
+from equipoise.maths.gaussian_box import bounded_use, probability_inside
+from equipoise.maths.gaussian_length import SURE, Bounded
+from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.criterion import BALANCED
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.move import Move
 from equipoise.model.outcome import Outcome
@@ -16,7 +23,6 @@ from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.joint_fit import Knowledge
 
-SURE = 0.95  # probability that each axis is within its tolerance
 CONTRADICTION = 4.0  # sd between what a move predicted and what was found
 FRESH = 8.0  # s, chosen: least record since the last move for a verdict
 
@@ -35,12 +41,10 @@ def probability_within(com: Vector3, sd: Vector3, target: Vector3, tolerance: Ve
     return np.asarray(ndtr((high - com) / sd) - ndtr((low - com) / sd))
 
 
-def is_within(
-    knowledge: Knowledge, target: Vector3, tolerance: Vector3, sure: float = SURE
-) -> bool:
-    """Say whether every axis is within its tolerance with a probability of ``sure``."""
-    found = probability_within(knowledge.com, knowledge.sd, target, tolerance)
-    return bool(np.all(found >= sure))
+def is_within(knowledge: Knowledge, aim: Aim, sure: float) -> bool:
+    """Say whether all axes are within their tolerances with a probability of ``sure``."""
+    off = knowledge.com - aim.target
+    return probability_inside(off, knowledge.covariance, aim.tolerance) >= sure
 
 
 def fresh_misfit(knowledge: Knowledge, since: float) -> float:
@@ -59,9 +63,7 @@ def drift_since(knowledge: Knowledge, since: float) -> Vector3:
     return (knowledge.recording.span[1] - since) * drift_of(knowledge.estimate)
 
 
-def verdict(
-    knowledge: Knowledge, move: Move | None, since: float, target: Vector3, tolerance: Vector3
-) -> Verdict:
+def verdict(knowledge: Knowledge, move: Move | None, since: float, aim: Aim) -> Verdict:
     """Return the verdict on the record since the last move (ended at ``since``, s)."""
     com, sd = knowledge.com, knowledge.sd
     if not knowledge.estimate.outcome.usable:
@@ -73,7 +75,7 @@ def verdict(
         spread = np.sqrt(np.diag(move.predicted_covariance))
         if np.any(np.abs(off) > CONTRADICTION * np.hypot(spread, sd)):
             return Verdict((Reason(Why.MOVE_MISSED, (), at(com, sd)),), com, sd)
-    return judged(com, sd, target, tolerance)
+    return judged(com, knowledge.covariance, aim)
 
 
 def unusable(outcome: Outcome, com: Vector3, sd: Vector3) -> Verdict:
@@ -86,22 +88,23 @@ def at(com: Vector3, sd: Vector3) -> dict[str, float]:
     return axes_of("com", com) | axes_of("sd", sd)
 
 
-def judged(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Verdict:
-    """Return the verdict on a centre of mass.
+def judged(com: Vector3, covariance: Matrix3, aim: Aim) -> Verdict:
+    """Return the verdict on a centre of mass (m, m^2), however large its estimated offset is."""
+    off, sd = com - aim.target, np.sqrt(np.diag(covariance))
+    use = bounded_use(off, covariance, aim.tolerance)
+    names = axes_in_doubt(off, sd, aim.tolerance, use)
+    return Verdict((BALANCED.answer(use, 1.0, at(com, sd), names),), com, sd)
 
-    Passed where each axis is within its tolerance for sure, failed where the 95 % interval of one
-    lies outside. Between them it is undecided, however large the estimated offset is.
+
+def axes_in_doubt(off: Vector3, sd: Vector3, tolerance: Vector3, use: Bounded) -> tuple[str, ...]:
+    """Return the axes outside their tolerance for sure, else those not inside for sure.
+
+    Where each axis is, but not all of them together, it is the one that is the least likely to be.
     """
-    found = at(com, sd)
-    sure = probability_within(com, sd, target, tolerance)
-    if np.all(sure >= SURE):
-        return Verdict((Reason(Why.WITHIN_TOLERANCE, (), found),), com, sd)
-    beyond = np.abs(com - target) - NORMAL_95 * sd > tolerance
-    if np.any(beyond):
-        axes = tuple("xyz"[k] for k in np.flatnonzero(beyond))
-        return Verdict((Reason(Why.OUTSIDE_TOLERANCE, axes, found),), com, sd)
-    axes = tuple("xyz"[k] for k in np.flatnonzero(sure < SURE))
-    return Verdict((Reason(Why.TOO_UNCERTAIN, axes, found),), com, sd)
+    beyond = np.abs(off) - NORMAL_95 * sd > tolerance
+    likely = probability_within(off, sd, np.zeros(3), tolerance)
+    found = beyond if use.low > 1 else likely <= max(SURE, float(likely.min()))
+    return tuple("xyz"[k] for k in np.flatnonzero(found))
 
 
 def fresh_enough(knowledge: Knowledge, since: float) -> bool:

@@ -28,8 +28,8 @@ def laws_table(found: Comparison) -> Table:
         f"the runs stay below. Offsets from the target; torque rms within "
         f"{found.tilt / DEG:.3g} deg of level, {both(found.before, UN_M, 3)} uN m before; "
         "following: with masses that follow the tilt by the sag that was found. "
-        "Halted: broken off for safety; late: out of time; false: passed by a verdict, and twice "
-        "the tolerance off."
+        "Halted: broken off for safety; late: out of time; false: passed by a verdict, and "
+        "outside the tolerance."
     )
     refused = [f"{each.law} was refused: {each.why}" for each in found.refusals]
     laws = sorted(found.laws, key=lambda law: law.left.most)

@@ -22,7 +22,7 @@ TABLE_3 = (
     f"What the table says is after {SOURCE}, Table 3 and sections 3 and 4; reported: results of "
     "hardware after its Table 1. Measured, medians, from the best law of a row to the worst: "
     "torque left, offset aside and in height, bench time; halted for safety; false: verdicts that "
-    "passed what was twice the tolerance off. A row without numbers was not run here."
+    "passed what was outside the tolerance. A row without numbers was not run here."
 )
 
 

@@ -1,0 +1,154 @@
+"""When a mass departed and arrived between the rows of its track, as two unknowns of each travel.
+
+A track is straight between rows; the mass was not. It departed somewhere between two rows, and
+arrived somewhere between two others: late by tau_1 and tau_2,
+
+    d(t) = d_log(t - tau),   tau = (1 - s) tau_1 + s tau_2,   s: 0 to 1 from departure to arrival
+    d(t) = d_log(t) - [(1 - s) tau_1 + s tau_2] d_log'(t) + ...
+
+How late is open within the slack of the first and the last step of a travel, dt - |dd| / v: of an
+interval dt in which the mass went dd it travelled for |dd| / v, v being its speed. A start anywhere
+in the slack moves the mean time of the step evenly within half of it to either side,
+
+    sd = slack / sqrt(12)
+
+A travel faster than v, such as a stepper's, tells nothing of the speed: its slack is the whole
+step. A mass that was commanded so arrives as late as its path takes at v; one that was measured has
+arrived. One step from rest to rest has one mean time, so one unknown. Rows at the corners of a
+travel at v leave no slack.
+
+Travels with short pauses between are one: steps of a stepper, which keep their phase to the rows or
+change it slowly. In a record of very many travels pauses count as short until ``MOST`` are left.
+
+Cannot see a speed that changes within a step but by its mean time.
+"""
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.lags import is_command
+from equipoise.actuators.stops import MassError, is_travelling, travels
+from equipoise.model.arrays import Bools, Series1
+from equipoise.model.recording import Samples
+from equipoise.model.testbed import SlidingMass
+
+DEPARTURE, ARRIVAL = "departure", "arrival"
+PAUSE = 1.0  # s, chosen: far below the periods of a platform
+MOST = 12  # travels of one mass, chosen: each costs two columns of the propagator
+FASTER = 1.1  # times the stated speed, chosen: beyond it that says nothing of a travel
+
+
+class TimedTravel(NamedTuple):
+    """One travel, or some with short pauses between."""
+
+    first: int  # row at which the mass still stood
+    last: int  # row at which it stood again
+    departure_sd: float  # s
+    arrival_sd: float  # s
+    path: float  # m
+    slack: Series1  # s, of each of its steps
+
+    @property
+    def is_one_step(self) -> bool:
+        """Say whether it lies between two neighbouring rows."""
+        return self.last == self.first + 1
+
+
+def merged_travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:
+    """Return first and last rows of travels, those with a short pause between as one."""
+    found, pause = travels(t, d, speed), PAUSE
+    while True:
+        starts = [k for k in range(1, len(found)) if t[found[k][0]] - t[found[k - 1][1]] >= pause]
+        bounds = [0, *starts, len(found)]
+        if len(bounds) - 1 <= MOST or pause > t[-1] - t[0]:
+            break
+        pause *= 2
+    groups = (found[a:b] for a, b in pairwise(bounds))
+    return [(group[0][0], group[-1][1]) for group in groups if group]
+
+
+def timed(t: Series1, d: Series1, speed: float) -> list[TimedTravel]:
+    """Return every travel of one mass with what its rows leave open of its times."""
+    commanded = is_command(d, is_travelling(t, d, speed))
+    return [
+        one_timed(np.diff(t[a : b + 1]), np.abs(np.diff(d[a : b + 1])), speed, commanded, a)
+        for a, b in merged_travels(t, d, speed)
+    ]
+
+
+def one_timed(
+    steps: Series1, ways: Series1, speed: float, commanded: bool, first: int
+) -> TimedTravel:
+    """Return the travel of these steps (s) and ways (m) from a row on."""
+    under_way = ways / speed
+    faster = bool(np.any(under_way > FASTER * steps))
+    slack: Series1 = steps if faster else np.maximum(steps - under_way, 0.0)
+    slack = np.where(slack > (1 - 1 / FASTER) * steps, slack, 0.0)  # rounded speeds are no slack
+    if not faster:
+        slack[1:-1] = 0.0  # within a travel, slower than the greatest speed is a speed
+    later = max(float(under_way.sum() - steps.sum()), 0.0) if commanded else 0.0
+    sd = slack / np.sqrt(12)
+    arrival_sd = float(np.hypot(sd[-1], later))
+    last, path = first + len(steps), float(ways.sum())
+    return TimedTravel(first, last, float(sd[0]), arrival_sd, path, slack)
+
+
+def unresolved_steps(t: Series1, d: Series1, speed: float) -> Bools:
+    """Say of each step between rows whether one mass travels in an unknown part of it."""
+    found = np.zeros(len(t) - 1, dtype=bool)
+    for travel in timed(t, d, speed):
+        found[travel.first : travel.last] |= travel.slack > 0
+    return found
+
+
+def open_travels(track: Samples, i: int, mass: SlidingMass, least: float) -> dict[int, TimedTravel]:
+    """Return by number the travels of one mass whose times are open by so much that it shows."""
+    found = timed(track.t, track.values[:, i], mass.speed)
+    return {
+        k + 1: travel
+        for k, travel in enumerate(found)
+        if mass.mass * travel.path * max(travel.departure_sd, travel.arrival_sd) > least
+    }
+
+
+def reach(sd: float) -> float:
+    """Return how late a time is at most, s, that is evenly spread with an sd."""
+    return float(np.sqrt(3)) * sd
+
+
+def bends(track: Samples, found: dict[int, TimedTravel]) -> list[Series1]:
+    """Return the times at which the effects of open times bend."""
+    return [
+        track.t[travel.first : travel.last + 1] + sign * reach(sd)
+        for travel in found.values()
+        for sd in (travel.departure_sd, travel.arrival_sd)
+        for sign in (-1, 1)
+        if sd > 0
+    ]
+
+
+def effect(t: Series1, track: Samples, i: int, travel: TimedTravel, sd: float) -> Series1:
+    """Return minus the speed of mass i in a travel, over ``reach`` to either side, m/s."""
+    rows, h = slice(travel.first, travel.last + 1), reach(sd)
+    ahead, behind = (np.interp(t + s, track.t[rows], track.values[rows, i]) for s in (h, -h))
+    return (behind - ahead) / (2 * h)
+
+
+def travel_errors(
+    t: Series1, track: Samples, i: int, name: str, found: dict[int, TimedTravel]
+) -> list[MassError]:
+    """Return the unknown times of the travels of mass i, with their effect at times ``t``."""
+    errors: list[MassError] = []
+    for k, travel in found.items():
+        share = np.interp(t, track.t[[travel.first, travel.last]], [0.0, 1.0])
+        ends = [(DEPARTURE, travel.departure_sd, 1 - share), (ARRIVAL, travel.arrival_sd, share)]
+        if travel.is_one_step:
+            ends = [(DEPARTURE, max(travel.departure_sd, travel.arrival_sd), np.ones_like(t))]
+        errors += [
+            MassError(f"{end}_{name}_{k}", sd, [(i, effect(t, track, i, travel, sd) * weight)])
+            for end, sd, weight in ends
+            if sd > 0
+        ]
+    return errors

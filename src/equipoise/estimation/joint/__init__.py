@@ -1,0 +1,1 @@
+"""Several records of one platform: one fit, and whether they agree."""

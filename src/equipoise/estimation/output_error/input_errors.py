@@ -1,0 +1,190 @@
+"""What inputs that were stated or reported, not measured in the record, add to the covariance.
+
+A platform's mass, masses of sliders, momenta and mountings of wheels and gyros, gravity, clocks:
+each is off by some sd. One that gives the scale, alone, shows in no residual, so it is not sought
+but carried (a "considered" parameter; Schmidt 1966). With A the information of the fit and b the
+descent of its cost, an input p off by one sd s moves the optimum by
+
+    dx = A^-1 db/dp s,         covariance + sum over inputs of dx dx^T
+
+db/dp is the difference quotient of b at the optimum. What follows from the estimate and the input
+together (the centre of mass at the end, masses where they stand) takes both ways.
+
+Each device turns its own part h of the known momentum, or torque:
+
+    gain      dh = s h              mounting      dh = s e_i x h,   i = x, y, z
+
+A clock that is slow stretches time from the beginning of the record: that of the camera, or of a
+gyro alone, all channels; that of a gyro beside a camera its own rows.
+
+Cannot see errors of inputs within the record, such as a wheel's friction; nor that two inputs
+contradict each other, which would tell more of either: intervals are then too wide.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.stored_momentum import known_torque, stored_momentum
+from equipoise.estimation.output_error.problem import Problem, reposed
+from equipoise.estimation.output_error.solution import Fitted, evaluate
+from equipoise.estimation.parameters.fit_parameters import physical
+from equipoise.maths.linalg import inverse_where
+from equipoise.model.arrays import Floats, Matrix3
+from equipoise.model.devices import Device
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+
+STEP = 0.01  # sd, chosen: so small that the quotient is a derivative, far above rounding
+AXES = np.eye(3)
+
+
+class Varied(NamedTuple):
+    """What is given when one input is off by ``STEP`` of its sd."""
+
+    name: str
+    sd: float
+    recording: Recording
+    testbed: Testbed
+
+
+class InputEffect(NamedTuple):
+    """What an input that is off by one sd changes at an optimum."""
+
+    name: str
+    descent: Floats  # (n,) of the cost, in physical coordinates
+    direct: Floats  # (n,) the point itself in physical coordinates: J_P of a heavier body
+    varied: Fitted  # the same point, the input off by ``STEP``
+
+
+class InputShift(NamedTuple):
+    """How an input that is off by one sd moves the optimum."""
+
+    name: str
+    shift: Floats  # (n,) in physical coordinates
+    varied: Fitted
+
+
+def scaled(channel: Samples | None, share: float) -> Samples | None:
+    """Return a channel with its values a share larger."""
+    return None if channel is None else replace(channel, values=channel.values * (1 + share))
+
+
+def stretched(channel: Samples | None, start: float, share: float) -> Samples | None:
+    """Return a channel whose clock was slower by a share since ``start`` (s)."""
+    return (
+        None if channel is None else replace(channel, t=start + (channel.t - start) * (1 + share))
+    )
+
+
+def platform_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+    """Yield mass, gravity, masses on rails, and momentum and torque that no device explains."""
+    body, masses = testbed.body, testbed.masses
+    heavier = replace(body, mass=body.mass * (1 + STEP * testbed.mass_sd))
+    yield Varied("platform mass", testbed.mass_sd, recording, replace(testbed, body=heavier))
+    stronger = testbed.gravity * (1 + STEP * testbed.gravity_sd)
+    yield Varied("gravity", testbed.gravity_sd, recording, replace(testbed, gravity=stronger))
+    for i, mass in enumerate(masses):
+        if mass.doubt is None:  # else what a calibration seeks
+            other = replace(mass, mass=mass.mass * (1 + STEP * mass.mass_sd))
+            rest = replace(testbed, masses=(*masses[:i], other, *masses[i + 1 :]))
+            yield Varied(f"mass {mass.name}", mass.mass_sd, recording, rest)
+    if recording.devices is None:
+        sd = testbed.momentum_sd
+        more = scaled(recording.momentum, STEP * sd)
+        yield Varied("momentum", sd, replace(recording, momentum=more), testbed)
+        sd = testbed.torque_sd
+        more = scaled(recording.torque, STEP * sd)
+        yield Varied("torque", sd, replace(recording, torque=more), testbed)
+
+
+def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+    """Yield the record's clock, and that of a gyro beside a camera."""
+    start, _ = recording.span
+    camera, gyro = recording.attitude, recording.rate
+    first = testbed.gyro if camera is None else testbed.attitude
+    if first is not None:
+        share = STEP * first.clock_sd
+        yield Varied("clock", first.clock_sd, replace(
+            recording,
+            attitude=stretched(camera, start, share),
+            rate=gyro if camera is not None else stretched(gyro, start, share),
+            masses=stretched(recording.masses, start, share),
+            momentum=stretched(recording.momentum, start, share),
+            torque=stretched(recording.torque, start, share),
+        ), testbed)  # fmt: skip
+    if camera is not None and testbed.gyro is not None:
+        gyro_clock = testbed.gyro.clock_sd
+        late = stretched(gyro, start, STEP * gyro_clock)
+        yield Varied("gyro clock", gyro_clock, replace(recording, rate=late), testbed)
+
+
+def alone(testbed: Testbed, device: Device) -> Testbed:
+    """Return the testbed with one of its devices only."""
+    return replace(
+        testbed,
+        wheels=tuple(each for each in testbed.wheels if each is device),
+        cmgs=tuple(each for each in testbed.cmgs if each is device),
+        magnetorquers=tuple(each for each in testbed.magnetorquers if each is device),
+        jets=tuple(each for each in testbed.jets if each is device),
+    )
+
+
+def turned_by(part: Samples | None, whole: Samples | None, matrix: Matrix3) -> Samples | None:
+    """Return a known input with M h more, h the part of it that one device gives."""
+    if part is None or whole is None:
+        return whole
+    return replace(whole, values=whole.values + part.values @ matrix.T)
+
+
+def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+    """Yield gain and mounting of each device, by its part of the known momentum and torque."""
+    if recording.devices is None:
+        return
+    for device in testbed.devices:
+        single = alone(testbed, device)
+        h, tau = stored_momentum(recording, single), known_torque(recording, single)
+        changes = [(f"gain of {device.name}", device.gain_sd, AXES)]
+        turns = (np.cross(axis, AXES).T for axis in AXES)
+        changes += [(f"mounting of {device.name}", device.mounting_sd, turn) for turn in turns]
+        for name, sd, matrix in changes:
+            momentum = turned_by(h, recording.momentum, STEP * sd * matrix)
+            torque = turned_by(tau, recording.torque, STEP * sd * matrix)
+            yield Varied(name, sd, replace(recording, momentum=momentum, torque=torque), testbed)
+
+
+def variations(problem: Problem) -> Iterator[Varied]:
+    """Yield every input that has an sd."""
+    recording, testbed = problem.recording, problem.testbed
+    for part in (platform_varied, clocks_varied, devices_varied):
+        yield from (varied for varied in part(recording, testbed) if varied.sd > 0)
+
+
+def input_effects(fitted: Fitted) -> list[InputEffect]:
+    """Return what each input changes at a fit; the same inputs in any record of a testbed."""
+    problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
+    found: list[InputEffect] = []
+    for varied in variations(problem):
+        other = reposed(problem, varied.recording, varied.testbed)
+        descent = evaluate(other, fitted.point, fitted.jumps).descent - fitted.at.descent
+        direct = physical(fitted.point, other.mass, layout) - values
+        at = replace(fitted, problem=other)
+        found.append(InputEffect(varied.name, descent / STEP, direct / STEP, at))
+    return found
+
+
+def input_shifts(fitted: Fitted) -> tuple[InputShift, ...]:
+    """Return how each input moves the optimum of a fit, where it does.
+
+    Of the optimum with all priors, the anchor's too: without it what the data leave open would move
+    without bound.
+    """
+    covariance = inverse_where(fitted.at.normal, ~fitted.problem.prior.held)
+    every = [
+        InputShift(each.name, each.direct + covariance @ each.descent, each.varied)
+        for each in input_effects(fitted)
+    ]
+    return tuple(s for s in every if np.any(s.shift) and np.all(np.isfinite(s.shift)))
