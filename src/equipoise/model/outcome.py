@@ -52,7 +52,7 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.RUNS_DISAGREE,
     ),
     OutcomeCode.IMPOSSIBLE: (Why.IMPOSSIBLE_INERTIA, Why.FILTER_DIVERGED),
-    OutcomeCode.NOT_CONVERGED: (Why.NOT_CONVERGED,),
+    OutcomeCode.NOT_CONVERGED: (Why.NOT_CONVERGED, Why.MOTION_NOT_FOUND),
     OutcomeCode.NOT_ESTIMATED: (
         Why.TOO_FEW_RESTS,
         Why.RESTS_TOO_ROUGH,

@@ -35,6 +35,12 @@ class EstimateReason(Code):
         "{spectral_peak:.2g} times the mean): intervals are widened {widening:.2g} times.",
     )
     NOT_CONVERGED = "not_converged", "The fit did not settle; its numbers mean nothing."
+    MOTION_NOT_FOUND = (
+        "motion_not_found",
+        "The fit did not find the motion: it leaves {attitude_rms:deg .2g} deg rms per axis, and "
+        "its numbers mean nothing. Try a shorter part of the record, or hold what is known of the "
+        "body.",
+    )
     RATIOS_ONLY = (
         "ratios_only",
         "The scale is open: only ratios of inertia and centre of mass are known.",
