@@ -71,6 +71,11 @@ class EstimateReason(Code):
         "camera_leans",
         "The camera's vertical leans {lean:deg .2g} deg from gravity's; that is corrected.",
     )
+    SENSOR_IMPLAUSIBLE = (
+        "sensor_implausible",
+        "But errors of sensors are larger than real ones are ({names}): they may stand for another "
+        "error, such as axes or an attitude read the other way; do not trust the intervals.",
+    )
     TORQUE_WANDERS = (
         "torque_wanders",
         "A torque that no term explains wanders by {torque_x:uN m .2g}, {torque_y:uN m .2g}, "
