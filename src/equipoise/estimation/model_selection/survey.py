@@ -140,11 +140,14 @@ def is_calm(model: RecordModel) -> bool:
     return white and bool(excesses(after, undisturbed).max() < WRONG)
 
 
-def driven(model: RecordModel) -> RecordModel:
-    """Return the model of a platform that something unknown drives: with process noise."""
+def driven(model: RecordModel, most: int = MOST_EVENTS) -> RecordModel:
+    """Return the model of a platform that something unknown drives: with process noise.
+
+    And with at most so many events.
+    """
     model = model if model.wanders else wandering(model)
     for turn in range(ROUNDS):
-        wider = searched(model, MOST_EVENTS)
+        wider = searched(model, most)
         if turn > 0 and contents(wider) == contents(model):
             break
         model = weighed(settled(wider))
@@ -225,7 +228,7 @@ def examined(model: RecordModel) -> RecordModel:
         if is_drowned(wild):
             return wild
         if not (is_near(model.fitted) and model.fitted.converged):
-            return doubted(driven(wild))
+            return doubted(driven(wild, FEW_EVENTS))
     greedy = repeated(model)
     if len(greedy.events) < MANY:
         return doubted(compared(model, calm(model, greedy)))
