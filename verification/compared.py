@@ -1,9 +1,10 @@
 """What `equipoise compare --methods` says of the trajectory fit and the tracker, and its bound.
 
-The study draws platforms of `sputnix` itself, of those that hang at most 22 deg aside: the others lie
-on its stop, at 30 deg, which no method models. It records them, and judges by their truth and by the
-Cramer-Rao bound there. A method at its bound with true intervals shows RMSE / bound of 1, coverage
-of 95 % and NEES of 1: this holds the study's own arithmetic to account as much as the methods.
+The study draws platforms of `sputnix` itself, of those that hang at most 22 deg aside: the others
+lie on its stop, at 30 deg, which no method models. It records them, and judges by their truth and
+by the Cramer-Rao bound there. A method at its bound with true intervals shows RMSE / bound of 1,
+coverage of 95 % and NEES of 1: this holds the study's own arithmetic to account as much as the
+methods.
 """
 
 from collections.abc import Callable, Iterator, Sequence

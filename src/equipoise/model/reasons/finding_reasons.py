@@ -44,13 +44,13 @@ class FindingReason(Code):
     )
     MEETS_STOP = (
         "meets_stop",
-        "the platform meets its stop, at {limit:deg .3g} deg of tilt, at {t:.4g} s: no estimate "
-        "models that.",
+        "the platform tilts to its limit of {limit:deg .3g} deg at {t:.4g} s: no estimate models "
+        "the push of its stop.",
     )
     LIES_ON_STOP = (
         "lies_on_stop",
-        "the platform lies on its stop, at {limit:deg .3g} deg of tilt, from {start:.4g} to "
-        "{end:.4g} s: no estimate models that.",
+        "the platform tilts to its limit of {limit:deg .3g} deg from {start:.4g} to {end:.4g} s: "
+        "it lies on its stop, which no estimate models.",
     )
     MORE_TOUCHES = "more_touches", "{count:.0f} further touches of the stop."
     SPIN = (
