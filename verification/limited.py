@@ -8,11 +8,12 @@ before the limit, none is lost.
 import resource
 import signal
 import time
+import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any
 
 MEMORY = 16 * 2**30  # bytes of address space, chosen: far above what a record needs
@@ -24,7 +25,7 @@ class Limited:
     """The answers that came, how long each took, and what stopped the work if anything did."""
 
     answers: tuple[Any, ...]
-    seconds: tuple[float, ...]  # s of processor time for each answer
+    seconds: tuple[float, ...]  # s of processor time for each answer, and since the last
     stopped: str  # empty: it came to its end
 
 
@@ -35,44 +36,49 @@ def _within(seconds: float) -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (limit, hard))
 
 
+def _place(error: Exception) -> str:
+    """Return what was raised, and in which line."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__}: {error} ({Path(last.filename).name}:{last.lineno})"
+
+
 def _run(pipe: Connection, work: Callable[[Any], Iterator[Any]], item: Any, limit: float) -> None:
-    """Send each answer with its time, then what ended the work."""
+    """Send each answer with its time, then what ended the work, with the time since the last."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     stopped = ""
+    began = time.process_time()
     try:
         _within(limit)
-        began = time.process_time()
         for answer in work(item):
             pipe.send((answer, time.process_time() - began))
             _within(limit)
             began = time.process_time()
     except Exception as error:  # what is counted here is whatever goes wrong
-        stopped = f"{type(error).__name__}: {error}"
-    pipe.send(stopped)
+        stopped = _place(error)
+    pipe.send((stopped, time.process_time() - began))
+
+
+def _received(pipe: Connection) -> Iterator[tuple[Any, float]]:
+    """Yield what is sent, until the other end is closed."""
+    while True:
+        try:
+            yield pipe.recv()
+        except EOFError:
+            return
 
 
 def limited(work: Callable[[Any], Iterator[Any]], item: Any, limit: float) -> Limited:
     """Return the answers of a generator, each of which may take ``limit`` s of processor time."""
     context = get_context("forkserver")
     ours, theirs = context.Pipe(duplex=False)
-    child = context.Process(target=partial(_run, theirs, work, item, limit))
+    child = context.Process(target=_run, args=(theirs, work, item, limit))
     child.start()
     theirs.close()
-    answers: list[Any] = []
-    seconds: list[float] = []
-    stopped = None
-    while stopped is None:
-        try:
-            received = ours.recv()
-        except EOFError:
-            child.join()
-            late = child.exitcode == -signal.SIGXCPU
-            stopped = f"no end within {limit:g} s" if late else f"exit code {child.exitcode}"
-            break
-        if isinstance(received, str):
-            stopped = received
-        else:
-            answers.append(received[0])
-            seconds.append(received[1])
+    sent = list(_received(ours))
     child.join()
-    return Limited(tuple(answers), tuple(seconds), stopped)
+    if child.exitcode:
+        late = child.exitcode == -signal.SIGXCPU
+        why = f"no end within {limit:g} s" if late else f"exit code {child.exitcode}"
+        sent.append((why, limit if late else 0.0))
+    values, seconds = zip(*sent, strict=True)
+    return Limited(values[:-1], seconds, values[-1])

@@ -90,7 +90,7 @@ def told(estimate: Estimate, held: tuple[str, ...] = ()) -> Told:
     every = (*estimate.parameters, *estimate.ratios)
     core = [p for p in every if p.name.split("/")[0] in NAMES and p.name not in held]
     firm = tuple(p for p in core if np.isfinite(p.sd) and p.sd > 0) if outcome.usable else ()
-    return Told(outcome.usable, outcome.trust in RELIED_ON, outcome.text, firm)
+    return Told(outcome.usable, outcome.trust in RELIED_ON, outcome.sentence, firm)
 
 
 def reference(recording: Recording, testbed: Testbed, held: tuple[str, ...] = ()) -> Told:
@@ -148,7 +148,7 @@ def judged(item: tuple[int, int], limit: float = LIMIT) -> Judged:
     label, found, shown = (*tried.answers, None, None, None)[:3]
     name = f"seed {item[0]}: {label}"
     if found is None:
-        return Judged(name, None, {}, None, limit, tried.stopped)
+        return Judged(name, None, {}, None, sum(tried.seconds[1:2]), tried.stopped)
     return Judged(name, *found, shown, tried.seconds[1], tried.stopped)
 
 
@@ -187,7 +187,7 @@ def sibling(item: tuple[str, int, int], limit: float = LIMIT) -> Judged:
     tried = limited(WORK[kind], (first, second), limit)
     name = f"{kind} {first}, {second}"
     if not tried.answers:
-        return Judged(name, None, {}, None, limit, tried.stopped)
+        return Judged(name, None, {}, None, tried.seconds[0], tried.stopped)
     return Judged(name, tried.answers[0], {}, None, tried.seconds[0], tried.stopped)
 
 
