@@ -70,6 +70,7 @@ def _received(pipe: Connection) -> Iterator[tuple[Any, float]]:
 def limited(work: Callable[[Any], Iterator[Any]], item: Any, limit: float) -> Limited:
     """Return the answers of a generator, each of which may take ``limit`` s of processor time."""
     context = get_context("forkserver")
+    context.set_forkserver_preload([work.__module__])  # heeded by the first call alone
     ours, theirs = context.Pipe(duplex=False)
     child = context.Process(target=_run, args=(theirs, work, item, limit))
     child.start()

@@ -12,7 +12,7 @@ from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.parameters.fit_parameters import core_of
 from equipoise.maths.attitude import tilt
 from equipoise.model.mass_properties import is_possible
-from tests.oracle import corpus, corpus_choices
+from tests.oracle import corpus, corpus_choices, corpus_testbed
 from tests.oracle.corpus_choices import MassLog, Sensors, Shape, choices
 
 MANY = [choices(seed) for seed in range(300)]
@@ -75,7 +75,7 @@ def test_a_record_is_of_a_possible_platform_and_ends_at_the_stop(seed) -> None:
     start, end = record.recording.span
     assert end - start >= 0.5 * corpus_choices.DURATION[0]
     if record.recording.attitude is not None:
-        q, lean = record.recording.attitude.values, corpus.PLUMB_SD
+        q, lean = record.recording.attitude.values, corpus_testbed.PLUMB_SD
         noise = np.radians(record.choices.camera_deg)
         assert tilt(q, UP).max() < corpus.STOP + 5 * (lean + noise)
 
@@ -92,8 +92,8 @@ def test_inputs_err_as_their_sd_say() -> None:
     errors = []
     for drawn in MANY[:36]:
         platform = corpus.platform_of(drawn)
-        exact = corpus.exact_testbed(drawn, platform)
-        stated = corpus.stated_testbed(drawn, exact)
+        exact = corpus_testbed.exact_testbed(drawn, platform)
+        stated = corpus_testbed.stated_testbed(drawn, exact)
         errors.append((stated.body.mass / exact.body.mass - 1) / exact.mass_sd)
         errors.append((exact.gravity / stated.gravity - 1) / exact.gravity_sd)
         pairs = zip(stated.masses, exact.masses, strict=True)
@@ -115,7 +115,7 @@ def test_logs_of_one_move() -> None:
     """Steps are whole, a late log is the exact one later, a command comes before the mass."""
     drawn = first(log=MassLog.LATE, sensors=Sensors.BOTH)
     t, exact = log_of(drawn, MassLog.EXACT)
-    whole = log_of(drawn, MassLog.STEPS)[1] / corpus.QUANTUM
+    whole = log_of(drawn, MassLog.STEPS)[1] / corpus_testbed.QUANTUM
     np.testing.assert_allclose(whole, np.round(whole), atol=1e-9)
     late, same = log_of(drawn, MassLog.LATE)
     np.testing.assert_allclose(late - t, drawn.late, rtol=1e-9)
@@ -123,7 +123,7 @@ def test_logs_of_one_move() -> None:
     when, told = log_of(drawn, MassLog.COMMAND)
     moved = np.abs(np.interp(when, t, exact) - told)
     assert moved.max() > 0.3e-3
-    assert np.abs(told[-1] - exact[-1]) < 2 * corpus.GRAVITY / corpus.SERVO**2
+    assert np.abs(told[-1] - exact[-1]) < 2 * corpus_testbed.GRAVITY / corpus_testbed.SERVO**2
 
 
 # --- a record without defects ---------------------------------------------------------------------
