@@ -1,4 +1,4 @@
-"""Records that are tried within a limit of processor time, and what is told of them.
+"""Records that are tried within a limit of processor time, and what comes of them.
 
 Of the corpus the truth is known, and the Cramer-Rao bound at the truth; quiet minutes and windows
 of the real record are judged by their siblings alone.
@@ -33,7 +33,7 @@ THINNED = (1, 2, 5)  # one row of the real record in so many
 RELIED_ON = (Trust.TRUSTWORTHY, Trust.WIDENED)
 
 
-class Told(NamedTuple):
+class Conclusion(NamedTuple):
     """What identification made of a record."""
 
     usable: bool
@@ -46,7 +46,7 @@ class Judged(NamedTuple):
     """A record that was tried."""
 
     name: str
-    told: Told | None  # None: lost
+    conclusion: Conclusion | None  # None: lost
     z: dict[str, float]  # errors in stated sd; empty where the truth is not known
     shown: bool | None  # the bound tells J; None: not refused, or the bound was lost
     seconds: float  # s of processor time
@@ -65,26 +65,26 @@ class Judged(NamedTuple):
     @property
     def refused(self) -> bool:
         """Say whether the estimate calls itself not usable."""
-        return self.told is not None and not self.told.usable
+        return self.conclusion is not None and not self.conclusion.usable
 
 
-def told(estimate: Estimate, held: tuple[str, ...] = ()) -> Told:
+def concluded(estimate: Estimate, held: tuple[str, ...] = ()) -> Conclusion:
     """Return what an estimate states firmly."""
     outcome = estimate.outcome
     every = (*estimate.parameters, *estimate.ratios)
     core = [p for p in every if p.name.split("/")[0] in NAMES and p.name not in held]
     firm = tuple(p for p in core if np.isfinite(p.sd) and p.sd > 0) if outcome.usable else ()
-    return Told(outcome.usable, outcome.trust in RELIED_ON, outcome.sentence, firm)
+    return Conclusion(outcome.usable, outcome.trust in RELIED_ON, outcome.sentence, firm)
 
 
-def reference(recording: Recording, testbed: Testbed, held: tuple[str, ...] = ()) -> Told:
+def reference(recording: Recording, testbed: Testbed, held: tuple[str, ...] = ()) -> Conclusion:
     """Identify by the reference method."""
     *_, last = identify(recording, testbed, IdentifyOptions("trajectory", hold=held))
     assert last.estimate is not None
-    return told(last.estimate, held)
+    return concluded(last.estimate, held)
 
 
-def errors(said: Told, record: CorpusRecord) -> dict[str, float]:
+def errors(conclusion: Conclusion, record: CorpusRecord) -> dict[str, float]:
     """Return the errors of what is stated, in its sd."""
     true = dict(zip(NAMES, true_values(record.truth), strict=True))
 
@@ -92,7 +92,7 @@ def errors(said: Told, record: CorpusRecord) -> dict[str, float]:
         above, *below = name.split("/")
         return true[above] / true[below[0]] if below else true[above]
 
-    return {p.name: float((p.value - of(p.name)) / p.sd) for p in said.firm}
+    return {p.name: float((p.value - of(p.name)) / p.sd) for p in conclusion.firm}
 
 
 def is_shown(record: CorpusRecord, recording: Recording) -> bool:
@@ -115,14 +115,14 @@ def part_of(recording: Recording, part: int) -> Recording:
 
 
 def trial(item: tuple[int, int]) -> Iterator[object]:
-    """Yield when the record is made; what is told, and its errors; if refused, if J is shown."""
+    """Yield when the record is made; the conclusion, and its errors; if refused, if J is shown."""
     seed, part = item
     record = corpus_record(seed)
     recording = part_of(record.recording, part)
     yield record.choices.label
-    said = reference(recording, record.testbed)
-    yield said, errors(said, record)
-    if not said.usable:
+    conclusion = reference(recording, record.testbed)
+    yield conclusion, errors(conclusion, record)
+    if not conclusion.usable:
         yield is_shown(record, recording)
 
 
@@ -139,8 +139,8 @@ def judged(item: tuple[int, int], limit: float = LIMIT) -> Judged:
 # --- other siblings -------------------------------------------------------------------------------
 
 
-def quiet_minute(item: tuple[int, int]) -> Iterator[Told]:
-    """Yield what is told of one of two minutes of a platform that hardly moves."""
+def quiet_minute(item: tuple[int, int]) -> Iterator[Conclusion]:
+    """Yield the conclusion from one of two minutes of a platform that hardly moves."""
     made = quiet(item[0])
     yield reference(made.minutes[item[1]], made.testbed)
 
@@ -155,8 +155,8 @@ def thinned(recording: Recording, every: int) -> Recording:
     return Recording(rows, attitude_norm=kept, source=recording.source)
 
 
-def real_window(item: tuple[int, int]) -> Iterator[Told]:
-    """Yield what is told of a window of the real record, of one row in so many."""
+def real_window(item: tuple[int, int]) -> Iterator[Conclusion]:
+    """Yield the conclusion from a window of the real record, of one row in so many."""
     every, place = item
     part = window(read_recording(real_record.RECORD), *real_record.WINDOWS[place])
     yield reference(thinned(part, every), read_testbed(real_record.TESTBED), real_record.HELD)

@@ -1,6 +1,6 @@
 """One piece of work within a limit of processor time and memory, in a process of its own.
 
-Whatever the work does, its end is told: a crash of the interpreter, memory beyond reason, or a
+Whatever the work does, its end is reported: a crash of the interpreter, memory beyond reason, or a
 search that does not end are findings about the work, not the end of the check. Of answers that came
 before the limit, none is lost.
 """

@@ -26,17 +26,19 @@ from verification.judged_records import LIMIT, SHOWN, THINNED, WRONG, Judged, ju
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 APART = 3.0  # sd, of two siblings
-COVERED = (0.92, 0.98)  # of 95 % intervals told as trustworthy
+COVERED = (0.92, 0.98)  # of 95 % intervals stated as trustworthy
 IN_VAIN, USABLE_QUIET = 0.05, 0.90  # shares of records
 STATED = 300
 
 
 def apart(one: Judged, other: Judged) -> float | None:
     """Return the greatest difference of two siblings, in its sd; None where one is refused."""
-    if not (one.told and one.told.usable and other.told and other.told.usable):
+    if not (
+        one.conclusion and one.conclusion.usable and other.conclusion and other.conclusion.usable
+    ):
         return None
-    of = {p.name: p for p in other.told.firm}
-    shared = [normalised_difference(p, of[p.name]) for p in one.told.firm if p.name in of]
+    of = {p.name: p for p in other.conclusion.firm}
+    shared = [normalised_difference(p, of[p.name]) for p in one.conclusion.firm if p.name in of]
     return max(map(abs, shared), default=None)
 
 
@@ -50,14 +52,14 @@ def _list(runs: Sequence[Judged]) -> str:
 
 def corpus_rows(runs: Sequence[Judged]) -> tuple[Row, ...]:
     """Return the counts over whole records."""
-    z = np.array([v for r in runs if r.told and r.told.relied_on for v in r.z.values()])
-    wrong, lost = [r for r in runs if r.wrong], [r for r in runs if r.told is None]
+    z = np.array([v for r in runs if r.conclusion and r.conclusion.relied_on for v in r.z.values()])
+    wrong, lost = [r for r in runs if r.wrong], [r for r in runs if r.conclusion is None]
     refused, vain = [r for r in runs if r.refused], [r for r in runs if r.refused and r.shown]
     times = [r.seconds for r in runs]
     inside = float(np.mean(np.abs(z) < NORMAL_95)) if len(z) else 1.0
     share = f"{COVERED[0]:.0%} to {COVERED[1]:.0%}"
     return (
-        Row(f"95 % intervals, of {len(z)} told as trustworthy, that hold the truth",
+        Row(f"95 % intervals, of {len(z)} stated as trustworthy, that hold the truth",
             f"{inside:.1%}", share, COVERED[0] <= inside <= COVERED[1]),
         Row("records refused", f"{len(refused)} of {len(runs)}", "any", True),
         at_most(f"the same, though the bound tells J within {SHOWN:.0%}{_list(vain)}",
@@ -72,8 +74,8 @@ def corpus_rows(runs: Sequence[Judged]) -> tuple[Row, ...]:
 def sibling_row(name: str, families: Sequence[Sequence[Judged]]) -> Row:
     """Return how many siblings, both usable, disagree."""
     pairs = [pair for family in families for pair in combinations(family, 2)]
-    far = [(a, apart(a, b)) for a, b in pairs]
-    known = [(a, distance) for a, distance in far if distance is not None]
+    distances = [(a, apart(a, b)) for a, b in pairs]
+    known = [(a, distance) for a, distance in distances if distance is not None]
     odd = [a for a, distance in known if distance > APART]
     text = f"{name}: pairs, of {len(known)} usable of {len(pairs)}, over {APART:g} sd apart"
     return at_most(text + _list(odd), len(odd), 0, "d")
@@ -81,7 +83,7 @@ def sibling_row(name: str, families: Sequence[Sequence[Judged]]) -> Row:
 
 def quiet_rows(minutes: Sequence[Judged]) -> tuple[Row, ...]:
     """Return the rows of quiet records, two minutes of each."""
-    usable = float(np.mean([bool(m.told and m.told.usable) for m in minutes]))
+    usable = float(np.mean([bool(m.conclusion and m.conclusion.usable) for m in minutes]))
     families = [minutes[k : k + 2] for k in range(0, len(minutes), 2)]
     share = at_least("quiet minutes that are usable", usable, USABLE_QUIET, ".1%")
     return share, sibling_row("minutes of quiet records", families)

@@ -44,7 +44,7 @@ class MassLog(StrEnum):
     EXACT = "exact"  # an encoder on each rail, 50 Hz
     STEPS = "steps"  # of 2 mm, at the sensors' rate
     LATE = "late"  # where they were some time before
-    COMMAND = "command"  # where they were told to be
+    COMMAND = "command"  # where they were commanded to be
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +102,7 @@ def between(rng: np.random.Generator, ends: tuple[float, float]) -> float:
 
 def choices(seed: int) -> Choices:
     """Return what a seed draws."""
-    body, height, motion, length, seen, slid, drag = (stream(seed, 0, k) for k in range(7))
+    body, height, motion, length, sensed, slid, drag = (stream(seed, 0, k) for k in range(7))
     return Choices(
         seed,
         mass=between(body, MASS),
@@ -111,11 +111,11 @@ def choices(seed: int) -> Choices:
         spin=_spin(motion),
         tilt=between(motion, TILT),
         duration=between(length, DURATION),
-        sensors=Sensors(str(seen.choice(list(Sensors)))),
-        camera_hz=float(seen.choice(CAMERA_HZ)),
-        camera_deg=between(seen, CAMERA_DEG),
-        gyro_hz=float(seen.choice(GYRO_HZ)),
-        gyro_deg_s=between(seen, GYRO_DEG_S),
+        sensors=Sensors(str(sensed.choice(list(Sensors)))),
+        camera_hz=float(sensed.choice(CAMERA_HZ)),
+        camera_deg=between(sensed, CAMERA_DEG),
+        gyro_hz=float(sensed.choice(GYRO_HZ)),
+        gyro_deg_s=between(sensed, GYRO_DEG_S),
         log=_log(slid),
         moves=int(slid.integers(1, 5)),
         speed=between(slid, SPEED),

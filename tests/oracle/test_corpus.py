@@ -120,10 +120,10 @@ def test_logs_of_one_move() -> None:
     late, same = log_of(drawn, MassLog.LATE)
     np.testing.assert_allclose(late - t, drawn.late, rtol=1e-9)
     np.testing.assert_array_equal(same, exact)
-    when, told = log_of(drawn, MassLog.COMMAND)
-    moved = np.abs(np.interp(when, t, exact) - told)
+    when, commanded = log_of(drawn, MassLog.COMMAND)
+    moved = np.abs(np.interp(when, t, exact) - commanded)
     assert moved.max() > 0.3e-3
-    assert np.abs(told[-1] - exact[-1]) < 2 * corpus_testbed.GRAVITY / corpus_testbed.SERVO**2
+    assert np.abs(commanded[-1] - exact[-1]) < 2 * corpus_testbed.GRAVITY / corpus_testbed.SERVO**2
 
 
 # --- a record without defects ---------------------------------------------------------------------
