@@ -25,8 +25,8 @@ def test_rows_at_the_corners_leave_nothing_open():
     """10 mm at 10 mm/s from 10 to 11 s."""
     found = one([0.0, 10, 11, 20], [0, 0, 10, 10])
     assert (found.departure_sd, found.arrival_sd) == (0, 0)
-    t, d = np.array([0.0, 10, 11, 20]), np.array([0, 0, 0.01, 0.01])
-    assert not unresolved_steps(t, d, SPEED).any()
+    track = Samples(np.array([0.0, 10, 11, 20]), np.array([[0, 0, 0.01, 0.01]]).T)
+    assert not unresolved_steps(track, (X,)).any()
 
 
 def test_a_travel_caught_by_even_rows_departs_and_arrives_within_its_slack_by_hand():

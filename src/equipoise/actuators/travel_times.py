@@ -23,14 +23,16 @@ change it slowly. In a record of very many travels pauses count as short until `
 Cannot see a speed that changes within a step but by its mean time.
 """
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from equipoise.actuators.lags import is_command
+from equipoise.actuators.lags import is_command, slowness
 from equipoise.actuators.stops import MassError, is_travelling, travels
-from equipoise.model.arrays import Bools, Series1
+from equipoise.model.arrays import Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
@@ -95,11 +97,12 @@ def one_timed(
     return TimedTravel(first, last, float(sd[0]), arrival_sd, path, slack)
 
 
-def unresolved_steps(t: Series1, d: Series1, speed: float) -> Bools:
-    """Say of each step between rows whether one mass travels in an unknown part of it."""
-    found = np.zeros(len(t) - 1, dtype=bool)
-    for travel in timed(t, d, speed):
-        found[travel.first : travel.last] |= travel.slack > 0
+def unresolved_steps(track: Samples, masses: Sequence[SlidingMass]) -> NDArray[np.bool_]:
+    """Say of each step between rows, (n - 1, k), which mass travels in an unknown part of it."""
+    found = np.zeros((len(track) - 1, len(masses)), dtype=bool)
+    for i, mass in enumerate(masses):
+        for travel in timed(track.t, track.values[:, i], mass.speed):
+            found[travel.first : travel.last, i] |= travel.slack > 0
     return found
 
 
@@ -131,9 +134,8 @@ def bends(track: Samples, found: dict[int, TimedTravel]) -> list[Series1]:
 
 def effect(t: Series1, track: Samples, i: int, travel: TimedTravel, sd: float) -> Series1:
     """Return minus the speed of mass i in a travel, over ``reach`` to either side, m/s."""
-    rows, h = slice(travel.first, travel.last + 1), reach(sd)
-    ahead, behind = (np.interp(t + s, track.t[rows], track.values[rows, i]) for s in (h, -h))
-    return (behind - ahead) / (2 * h)
+    rows = slice(travel.first, travel.last + 1)
+    return slowness(t, Samples(track.t[rows], track.values[rows]), i, reach(sd))
 
 
 def travel_errors(

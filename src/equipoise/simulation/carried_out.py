@@ -82,9 +82,23 @@ def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
     return sorted([*moves, *drives], key=lambda command: command.t)
 
 
+def performed(
+    testbed: Testbed, seed: int, manoeuvre: Manoeuvre | None, duration: float, moves: Moves = ()
+) -> tuple[SimulatedBench, Recording]:
+    """Return a simulated bench and what it records: of a manoeuvre, else of ``duration`` seconds.
+
+    The latter with masses sent to targets (m) at times (s) in order; the platform is let go so that
+    it meets no stop, where it can be.
+    """
+    if manoeuvre is None:
+        return freely(testbed, seed, lambda bench: recorded(bench, duration, moves))
+    bench = bench_for(testbed, manoeuvre, seed)
+    return bench, carried_out(bench, manoeuvre)
+
+
 def simulated(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Recording:
     """Return what a simulated bench records of a manoeuvre."""
-    return carried_out(bench_for(testbed, manoeuvre, seed), manoeuvre)
+    return performed(testbed, seed, manoeuvre, manoeuvre.duration)[1]
 
 
 def carried_out(bench: Bench, manoeuvre: Manoeuvre) -> Recording:
@@ -93,11 +107,8 @@ def carried_out(bench: Bench, manoeuvre: Manoeuvre) -> Recording:
 
 
 def record(testbed: Testbed, duration: float, moves: Moves, seed: int) -> Recording:
-    """Return ``duration`` seconds with masses sent to targets (m) at times (s) in order.
-
-    The platform is let go so that it meets no stop, where it can be.
-    """
-    return freely(testbed, seed, lambda bench: recorded(bench, duration, moves))[1]
+    """Return the recording of a simulated bench without a manoeuvre (``performed``)."""
+    return performed(testbed, seed, None, duration, moves)[1]
 
 
 def recorded(bench: Bench, duration: float, moves: Moves) -> Recording:

@@ -7,8 +7,7 @@ from equipoise.app.arguments.checks import positive, seed_of
 from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
-from equipoise.model.testbed import Testbed
-from equipoise.simulation.carried_out import record, simulated
+from equipoise.simulation.carried_out import performed
 from equipoise.simulation.series import seeds_of, with_drawn_platform
 
 USUAL = 120.0  # s
@@ -85,12 +84,8 @@ def simulate(
     length = positive("duration", USUAL if duration is None else duration)
     manoeuvre = None if plan is None else plan_from(plan, bed).manoeuvre
 
-    def made(bed: Testbed, seed: int) -> Recording:
-        if manoeuvre is None:
-            return record(bed, length, moves, seed)
-        return simulated(bed, manoeuvre, seed)
-
     if series is None:
-        return made(bed, drawn)
+        return performed(bed, drawn, manoeuvre, length, moves)[1]
     runs, platform = int(positive("series", series)), with_drawn_platform(bed, drawn)
-    return [made(platform, each) for each in seeds_of(runs, drawn)]
+    seeds = seeds_of(runs, drawn)
+    return [performed(platform, each, manoeuvre, length, moves)[1] for each in seeds]

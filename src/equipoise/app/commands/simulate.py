@@ -64,13 +64,10 @@ def simulate(
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
 
     def made(bed: "Testbed", seed: int) -> "tuple[SimulatedBench, Recording]":
-        from equipoise.simulation.carried_out import bench_for, carried_out, recorded
-        from equipoise.simulation.free_start import freely
+        from equipoise.simulation.carried_out import performed
 
-        if planned is None:
-            return freely(bed, seed, lambda bench: recorded(bench, duration, moves))
-        bench = bench_for(bed, planned.manoeuvre, seed)
-        return bench, carried_out(bench, planned.manoeuvre)
+        manoeuvre = None if planned is None else planned.manoeuvre
+        return performed(bed, seed, manoeuvre, duration, moves)
 
     if series is not None:
         return _series(bed, drawn, int(positive("--series", series)), made, out)

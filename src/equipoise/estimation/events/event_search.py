@@ -1,5 +1,6 @@
 """Events in their place: moved to the moment that explains most, merged, taken back at need."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -55,9 +56,10 @@ def spans_of_travels(model: RecordModel) -> list[tuple[float, float]]:
     return [(float(a - margin), float(b + margin)) for way, a, b in ways if way > SHORT * most]
 
 
-def is_during_travel(model: RecordModel, t: float) -> bool:
-    """Say whether masses travel far at a time (s), or within a cut's spacing of it."""
-    return any(start <= t <= end for start, end in spans_of_travels(model))
+def during_travels(model: RecordModel, times: Sequence[float]) -> list[bool]:
+    """Say of each time (s) whether masses travel far then, or within a cut's spacing of it."""
+    spans = spans_of_travels(model)
+    return [any(start <= t <= end for start, end in spans) for t in times]
 
 
 def without_sure_travel(model: RecordModel) -> bool:
@@ -73,11 +75,12 @@ def doubted(model: RecordModel) -> RecordModel:
     for the centre of mass is not. While masses travel an event may be of the travel: what shifts
     then may be any part of what was recorded, and the scale is as open as that leaves it.
     """
+    travelling = during_travels(model, [event.t for event in model.events])
     for k, event in enumerate(model.events):
         others = [other for other in KINDS if other != event.kind]
         models = [timed(with_kind(model, k, other), k) for other in others]
         rival = nearest(models)
-        if farther(rival, model) < CLEAR or is_during_travel(model, event.t):
+        if farther(rival, model) < CLEAR or travelling[k]:
             open_to = replace(event, unclear=True, aside=rival.events[k].t - event.t)
             events = (*model.events[:k], open_to, *model.events[k + 1 :])
             model = replace(model, events=events)

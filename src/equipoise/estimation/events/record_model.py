@@ -15,8 +15,8 @@ from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.kernels.segments import count_free
 from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.output_error.segment_jumps import Jump, carried, inside, walk
-from equipoise.estimation.output_error.solution import Fitted, smooth_at
-from equipoise.estimation.output_error.trajectory import Params, cost_of, problem_of
+from equipoise.estimation.output_error.solution import Fitted, cost_of, finite_cost, smooth_at
+from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
 from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording
@@ -194,7 +194,7 @@ def improbability(model: RecordModel) -> float:
         found = evidence(*smoothed(model), threshold(model.spacing))
     except np.linalg.LinAlgError:
         return np.inf
-    return found if np.isfinite(found) else np.inf
+    return finite_cost(found)
 
 
 def log_det(matrix: Square) -> float:

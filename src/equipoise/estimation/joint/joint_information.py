@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.estimation.events.record_model import RecordModel
-from equipoise.estimation.joint.profile_descent import Joint, reduced
+from equipoise.estimation.joint.profile_descent import Joint, reduced, without_private
 from equipoise.estimation.joint.shared_parameters import BODIES, Record
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.input_errors import input_effects
@@ -30,7 +30,6 @@ from equipoise.estimation.parameters.observability import (
     examine_unheld,
     natural_sizes,
 )
-from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Bools, Floats, Ints, Square
 from equipoise.model.estimate import Estimate
 
@@ -104,31 +103,23 @@ def pull_of_sag(joint: Joint, record: Record, covariance: Square) -> Floats:
     moved = descent_by_sag(record.fitted, spread)
     if moved is None:
         return np.zeros(joint.shared.size)
-    return pull_of(joint, record, moved)
-
-
-def pull_of(joint: Joint, record: Record, moved: Floats) -> Floats:
-    """Return what a change of a record's descent changes of w g, its own unknowns taken out."""
-    own, private = record.place.own, record.place.private
-    A = record.fitted.at.normal
-    gain = A[np.ix_(own, private)] @ inverse_spd(A[np.ix_(private, private)])
-    pull = record.weight * (moved[own] - gain @ moved[private])
-    return record.place.spread(joint.shared.size, pull)
+    return record.place.spread(joint.shared.size, without_private(record, moved))
 
 
 def by_inputs(joint: Joint, covariance: Square) -> Square:
     """Return what inputs that are uncertain, each alike in all records, add to a covariance."""
-    pulls: dict[tuple[str, int], Floats] = {}
-    direct: dict[tuple[str, int], Floats] = {}
+    size, shifts = joint.shared.size, dict[tuple[str, str], Floats]()
     for record in joint.records:
-        for number, effect in enumerate(input_effects(record.fitted)):
-            key = (effect.name, number)
-            pull = pull_of(joint, record, effect.descent)
-            pulls[key] = pulls.get(key, np.zeros(joint.shared.size)) + pull
-            whole = record.place.spread(joint.shared.size, effect.direct[record.place.own])
-            direct.setdefault(key, whole)
-    shifts = [direct[key] + covariance @ pull for key, pull in pulls.items()]
-    return sum((np.outer(s, s) for s in shifts), np.zeros_like(covariance))
+        place, effects = record.place, input_effects(record.fitted)
+        if not effects:
+            continue
+        moved = without_private(record, np.column_stack([each.descent for each in effects]))
+        for effect, pull in zip(effects, moved.T, strict=True):
+            key = (effect.name, effect.axis)
+            # what it does to J_P itself is the same in every record
+            before = shifts.get(key, place.spread(size, effect.direct[place.own]))
+            shifts[key] = before + covariance @ place.spread(size, pull)
+    return sum((np.outer(s, s) for s in shifts.values()), np.zeros_like(covariance))
 
 
 def beside_fit(joint: Joint, k: int, model: RecordModel, own: Estimate) -> Square:

@@ -31,7 +31,7 @@ from equipoise.estimation.joint.shared_parameters import (
     stepped,
 )
 from equipoise.estimation.output_error.kernels.gauss_newton import HELD
-from equipoise.estimation.output_error.solution import evaluate, settle
+from equipoise.estimation.output_error.solution import cost_of, evaluate, finite_cost, settle
 from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.estimation.parameters.retraction import possible_step, step_work_for
 from equipoise.maths.levenberg_marquardt import FIRST, judge, promise, tolerated
@@ -68,13 +68,18 @@ class Joint:
         return sum(r.fitted.at.left_q.size + r.fitted.at.left_w.size for r in self.records)
 
 
+def without_private(record: Record, of_all: Floats) -> Floats:
+    """Return w (b_x - A_xu A_uu^-1 b_u) for b of all unknowns of a record, (n,) or columns."""
+    normal, own, private = record.fitted.at.normal, record.place.own, record.place.private
+    gain = normal[np.ix_(own, private)] @ inverse_spd(normal[np.ix_(private, private)])
+    return record.weight * (of_all[own] - gain @ of_all[private])
+
+
 def reduced(record: Record) -> tuple[Square, Floats]:
     """Return w S and w g of a record by its own part of what is shared."""
-    at, own, private = record.fitted.at, record.place.own, record.place.private
-    cross = at.normal[np.ix_(own, private)]
-    gain = cross @ inverse_spd(at.normal[np.ix_(private, private)])
-    S = at.normal[np.ix_(own, own)] - gain @ cross.T
-    return record.weight * S, record.weight * (at.descent[own] - gain @ at.descent[private])
+    at, own = record.fitted.at, record.place.own
+    both = without_private(record, np.column_stack([at.normal[:, own], at.descent]))
+    return both[:, :-1], both[:, -1]
 
 
 def of_data(joint: Joint) -> tuple[Square, Floats]:
@@ -130,7 +135,7 @@ def settled(record: Record, x: Floats) -> Record:
     if not found[0].converged:  # so wide a step may mislead: begin where it stood
         beside = placed(record, record.fitted.point, x)
         found.append(settle(kept, beside, record.fitted.jumps, EACH))
-    best = min(found, key=lambda each: finite_cost(each.at.cost))
+    best = min(found, key=cost_of)
     here = evaluate(record.problem, best.point, best.jumps)
     return replace(record, fitted=replace(best, problem=record.problem, at=here))
 
@@ -237,8 +242,3 @@ def attempt(joint: Joint) -> Joint:
         return descend(moved_to(joint, joint.x))
     except np.linalg.LinAlgError:
         return joint
-
-
-def finite_cost(cost: float) -> float:
-    """Return a cost, infinite if it is no number."""
-    return cost if np.isfinite(cost) else np.inf

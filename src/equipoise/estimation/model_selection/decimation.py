@@ -123,8 +123,7 @@ def most_rows(channel: Samples | None, longest: float, turn: Turn) -> int:
 
 def open_rows(track: Samples, testbed: Testbed) -> Ints:
     """Return the rows between which a travel is unresolved: how long they are apart counts."""
-    columns = zip(track.values.T, testbed.masses, strict=True)
-    steps = np.any([unresolved_steps(track.t, d, m.speed) for d, m in columns], axis=0)
+    steps = unresolved_steps(track, testbed.masses).any(axis=1)
     return np.flatnonzero(np.append(steps, False) | np.append(False, steps))
 
 

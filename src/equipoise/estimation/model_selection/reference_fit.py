@@ -7,12 +7,13 @@ found is part of the model of the final fit, so that the intervals count it; and
 Cannot see what ``trajectory`` cannot see; nor anything that no row of the record shows.
 """
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 
 from equipoise.estimation.events.event_report import reported_events
-from equipoise.estimation.events.event_search import is_during_travel, without_sure_travel
+from equipoise.estimation.events.event_search import during_travels, without_sure_travel
 from equipoise.estimation.events.event_time_covariance import with_moments
 from equipoise.estimation.events.record_model import RecordModel, jumping, refitted
 from equipoise.estimation.model_selection.decimation import condensed
@@ -117,8 +118,8 @@ def event_reasons(concluded: Estimate, model: RecordModel) -> list[Reason]:
         return []
     times = tuple(f"{event.t:.4g}" for event in concluded.events)
     found = [Reason(Why.EVENTS_FOUND, times, {"count": len(times)})]
-    events = zip(times, concluded.events, strict=True)
-    moving = tuple(name for name, event in events if is_during_travel(model, event.t))
+    travelling = during_travels(model, [event.t for event in concluded.events])
+    moving = tuple(itertools.compress(times, travelling))
     return [*found, Reason(Why.EVENTS_AT_TRAVELS, moving)] if moving else found
 
 

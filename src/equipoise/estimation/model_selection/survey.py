@@ -223,6 +223,7 @@ def examined(model: RecordModel) -> RecordModel:
     they were. Of a platform that is driven by far more than gravity nothing is sought. Where the
     plain fit is lost, events cannot be found from it: there is process noise from the start.
     """
+    wild: RecordModel | None = None
     if not is_close(model.fitted):
         wild, _, _ = calibrated(wandering(model))
         if is_drowned(wild):
@@ -231,25 +232,33 @@ def examined(model: RecordModel) -> RecordModel:
             return doubted(driven(wild, FEW_EVENTS))
     greedy = repeated(model)
     if len(greedy.events) < MANY:
-        return doubted(compared(model, calm(model, greedy)))
+        return doubted(compared(model, calm(model, greedy), wild=wild))
     pushed = driven(model)
     if len(greedy.events) >= FEW_EVENTS:
         return doubted(pushed)
     if improbability(greedy) - improbability(pushed) < LEAD:
         greedy = calm(model, greedy)
-    return doubted(compared(model, greedy, pushed))
+    return doubted(compared(model, greedy, pushed, wild))
 
 
-def is_rather_driven(model: RecordModel, touched_model: RecordModel) -> bool:
-    """Say whether process noise alone, beside the plain model, is likelier than some events."""
+def is_rather_driven(
+    model: RecordModel, touched_model: RecordModel, wild: RecordModel | None
+) -> bool:
+    """Say whether process noise alone, beside the plain model, is likelier than some events.
+
+    ``wild``: the plain model with process noise, calibrated, where that is at hand.
+    """
     if not touched_model.events:
         return False
-    wild, _, _ = calibrated(wandering(model))
+    wild = wild or calibrated(wandering(model))[0]
     return improbability(weighed(wild)) < improbability(touched_model)
 
 
 def compared(
-    model: RecordModel, greedy: RecordModel, pushed: RecordModel | None = None
+    model: RecordModel,
+    greedy: RecordModel,
+    pushed: RecordModel | None = None,
+    wild: RecordModel | None = None,
 ) -> RecordModel:
     """Return the likeliest of a model without process noise, ``greedy``, and those with it.
 
@@ -260,7 +269,7 @@ def compared(
     """
     simple = pruned(greedy, colour_of(greedy))
     explained = is_calm(simple)
-    if explained and len(simple.events) < MANY and not is_rather_driven(model, simple):
+    if explained and len(simple.events) < MANY and not is_rather_driven(model, simple, wild):
         return simple
     models = [simple, pushed or driven(model)]
     if greedy.events and not explained:

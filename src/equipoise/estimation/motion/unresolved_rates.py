@@ -28,8 +28,7 @@ def doubtful_rates(track: Samples, testbed: Testbed) -> Floats:
     """Return by how much a rate may be off within each step between rows of the masses, rad/s."""
     lever = np.linalg.solve(testbed.body.inertia_P, mass_maps(testbed.masses).momentum.T)
     speeds = np.abs(np.diff(track.values, axis=0)) / np.diff(track.t)[:, None]
-    columns = zip(track.values.T, testbed.masses, strict=True)
-    unresolved = np.column_stack([unresolved_steps(track.t, d, m.speed) for d, m in columns])
+    unresolved = unresolved_steps(track, testbed.masses)
     off: Floats = (speeds * unresolved) @ np.linalg.norm(lever, axis=0)
     return off
 

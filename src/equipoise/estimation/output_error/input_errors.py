@@ -48,12 +48,14 @@ class Varied(NamedTuple):
     sd: float
     recording: Recording
     testbed: Testbed
+    axis: str = ""  # about which it turns, of a mounting
 
 
 class InputEffect(NamedTuple):
     """What an input that is off by one sd changes at an optimum."""
 
     name: str
+    axis: str
     descent: Floats  # (n,) of the cost, in physical coordinates
     direct: Floats  # (n,) the point itself in physical coordinates: J_P of a heavier body
     varied: Fitted  # the same point, the input off by ``STEP``
@@ -146,13 +148,14 @@ def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     for device in testbed.devices:
         single = alone(testbed, device)
         h, tau = stored_momentum(recording, single), known_torque(recording, single)
-        changes = [(f"gain of {device.name}", device.gain_sd, AXES)]
-        turns = (np.cross(axis, AXES).T for axis in AXES)
-        changes += [(f"mounting of {device.name}", device.mounting_sd, turn) for turn in turns]
-        for name, sd, matrix in changes:
+        turned = zip("xyz", (np.cross(axis, AXES).T for axis in AXES), strict=True)
+        changes = [("gain", device.gain_sd, "", AXES)]
+        changes += [("mounting", device.mounting_sd, axis, turn) for axis, turn in turned]
+        for what, sd, axis, matrix in changes:
             momentum = turned_by(h, recording.momentum, STEP * sd * matrix)
             torque = turned_by(tau, recording.torque, STEP * sd * matrix)
-            yield Varied(name, sd, replace(recording, momentum=momentum, torque=torque), testbed)
+            driven = replace(recording, momentum=momentum, torque=torque)
+            yield Varied(f"{what} of {device.name}", sd, driven, testbed, axis)
 
 
 def variations(problem: Problem) -> Iterator[Varied]:
@@ -172,7 +175,7 @@ def input_effects(fitted: Fitted) -> list[InputEffect]:
         descent = evaluate(other, fitted.point, fitted.jumps).descent - fitted.at.descent
         direct = physical(fitted.point, other.mass, layout) - values
         at = replace(fitted, problem=other)
-        found.append(InputEffect(varied.name, descent / STEP, direct / STEP, at))
+        found.append(InputEffect(varied.name, varied.axis, descent / STEP, direct / STEP, at))
     return found
 
 

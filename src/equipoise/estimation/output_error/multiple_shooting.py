@@ -9,7 +9,7 @@ joints softened; cost grows with the number of stretches).
 Needs attitudes: rates alone give no states to begin with.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -30,7 +30,7 @@ from equipoise.model.testbed import Testbed
 STRETCHES = 40  # chosen: each a small part of a swing that the record shows
 FIRST = (0.2, 0.2)  # rad, and of the greatest rate: sd of the first joints, chosen
 SLOWEST = 0.01  # rad/s, chosen: a platform that hardly moves
-STAGES, TIGHTER = 6, 0.2  # chosen: to a ten-thousandth of the first sd
+TIGHTENED = tuple(0.2**stage for stage in range(6))  # chosen: to a ten-thousandth of the first sd
 EACH = 30  # evaluations
 TINY = 1e-9  # rad, rad/s: no joint is without an sd
 Joints = tuple[Jump, ...]
@@ -62,11 +62,8 @@ def missing(problem: Problem, point: Unknowns, motion: SampledMotion, cuts: Cuts
     return out
 
 
-def first_joined(
-    recording: Recording, testbed: Testbed, cut: Problem, body: Unknowns
-) -> tuple[Unknowns, Floats]:
+def first_joined(motion: SampledMotion, cut: Problem, body: Unknowns) -> tuple[Unknowns, Floats]:
     """Return a body that begins as measured, and its jumps to each measured state."""
-    motion = sampled_motion(recording, testbed)
     q0, w0 = state_near(motion, float(cut.line.t[0]))
     point = replace(body, q0=q0, w0=w0)
     return point, missing(cut, point, motion, posed(cut).cuts)
@@ -76,16 +73,21 @@ def shot(
     recording: Recording, testbed: Testbed, posed_with: Callable[[Joints], Problem], body: Unknowns
 ) -> Unknowns:
     """Return a point near the optimum; ``body`` gives the first one, ``posed_with`` adds joints."""
+    motion = sampled_motion(recording, testbed)
     times = np.linspace(*recording.span, STRETCHES + 1)[1:-1]
-    rates = sampled_motion(recording, testbed).w
-    fastest = max(float(np.linalg.norm(rates, axis=1).max()), SLOWEST)
-    point, jumps = first_joined(recording, testbed, posed_with(joints(times, *FIRST)), body)
-    for stage in range(STAGES):
-        tight = TIGHTER**stage
-        cut = posed_with(joints(times, tight * FIRST[0], tight * FIRST[1] * fastest))
+    fastest = max(float(np.linalg.norm(motion.w, axis=1).max()), SLOWEST)
+    first = first_joined(motion, posed_with(joints(times, *FIRST)), body)
+    stages = (joints(times, tight * FIRST[0], tight * FIRST[1] * fastest) for tight in TIGHTENED)
+    return tightened(first, map(posed_with, stages))[0]
+
+
+def tightened(first: tuple[Unknowns, Floats], stages: Iterable[Problem]) -> tuple[Unknowns, Floats]:
+    """Return a point and its jumps after some searches, each from where the one before ended."""
+    point, jumps = first
+    for cut in stages:
         found = settle(cut, point, jumps, EACH)
         point, jumps = found.point, found.jumps
-    return point
+    return point, jumps
 
 
 def shot_driven(
@@ -100,12 +102,11 @@ def shot_driven(
     Only the attitude's joints close; rates (rad/s, (K, 3)) go on to jump at ``times``, by what
     drives the platform and, to begin with, by what the measured rates err.
     """
-    point, jumps = first_joined(recording, testbed, posed_with(joints(times, *FIRST)), body)
-    turn_sd, rate_sd = (max(rms(part), TINY) for part in (jumps[:, :3], jumps[:, 3:]))
-    for stage in range(STAGES):
-        found = settle(posed_with(joints(times, turn_sd * TIGHTER**stage, rate_sd)), point, jumps,
-                       EACH)  # fmt: skip
-        point, jumps = found.point, found.jumps
+    motion = sampled_motion(recording, testbed)
+    first = first_joined(motion, posed_with(joints(times, *FIRST)), body)
+    turn_sd, rate_sd = (max(rms(part), TINY) for part in (first[1][:, :3], first[1][:, 3:]))
+    stages = (joints(times, turn_sd * tight, rate_sd) for tight in TIGHTENED)
+    point, jumps = tightened(first, map(posed_with, stages))
     return point, jumps[:, 3:]
 
 

@@ -63,6 +63,16 @@ def chi_square_share(fit: Fitted) -> float:
     return 2 * fit.at.cost / (3 * (len(fit.at.left_q) + len(fit.at.left_w)))
 
 
+def finite_cost(cost: float) -> float:
+    """Return a cost, infinite if it is no number: such a one never wins."""
+    return cost if np.isfinite(cost) else np.inf
+
+
+def cost_of(fit: Fitted) -> float:
+    """Return the cost of a fit, infinite if there is none."""
+    return finite_cost(fit.at.cost)
+
+
 def smooth_at(fit: Fitted) -> Smoothed:
     """Return what is known of every stretch at an optimum, with the priors of the problem."""
     return smooth(posed(fit.problem), fit.point.flat, fit.jumps, inverse_spd(fit.at.normal))

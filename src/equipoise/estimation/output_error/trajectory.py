@@ -39,6 +39,7 @@ from equipoise.estimation.output_error.solution import (
     Evaluation,
     Fitted,
     chi_square_share,
+    cost_of,
     evaluate,
     settle,
 )
@@ -236,11 +237,6 @@ def fit(
 def explains(fit: Fitted) -> bool:
     """Say whether a fit leaves so little that no other start need be tried."""
     return fit.converged and chi_square_share(fit) < LOST
-
-
-def cost_of(fit: Fitted) -> float:
-    """Return the cost, infinite if there is none."""
-    return fit.at.cost if np.isfinite(fit.at.cost) else np.inf
 
 
 def shoot(recording: Recording, testbed: Testbed, params: Params, body: Unknowns) -> Unknowns:

@@ -20,6 +20,13 @@ from equipoise.io.toml.units import key_factor
 from equipoise.model import devices as model
 from equipoise.model.errors import InputError
 
+GAIN_SD: float = Field(
+    1.0, description="one sd of what it gives, relative, chosen: a data sheet; 0: exact"
+)
+MOUNTING_SD: float = Field(
+    0.2, description="one sd of its axes about each direction across, chosen: bolted on; 0: exact"
+)
+
 
 class ReactionWheel(RecordTable):
     """A rotor with a fixed axis; its inertia is the greatest momentum by the greatest speed."""
@@ -32,12 +39,8 @@ class ReactionWheel(RecordTable):
     speed_rpm: float = Field(0.0, description="at the start")
     speed_noise_rpm: NotNegative = Field(0.0, description="one sd of a tachometer row")
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the torque")
-    gain_sd_percent: NotNegative = Field(
-        1.0, description="one sd of its momentum, chosen: a data sheet; 0: exact"
-    )
-    mounting_sd_deg: NotNegative = Field(
-        0.2, description="one sd about each direction across its axis, chosen: bolted on; 0: exact"
-    )
+    gain_sd_percent: NotNegative = GAIN_SD
+    mounting_sd_deg: NotNegative = MOUNTING_SD
 
     def record(self, where: str) -> model.ReactionWheel:
         """Return the wheel."""
@@ -70,12 +73,8 @@ class ControlMomentGyro(RecordTable):
     asymmetry_kg_m2: float = Field(
         0.0, description="inertia of the same about the spin axis less about the third axis"
     )
-    gain_sd_percent: NotNegative = Field(
-        1.0, description="one sd of its momentum, chosen: a data sheet; 0: exact"
-    )
-    mounting_sd_deg: NotNegative = Field(
-        0.2, description="one sd about each direction across both axes, chosen: bolted on; 0: exact"
-    )
+    gain_sd_percent: NotNegative = GAIN_SD
+    mounting_sd_deg: NotNegative = MOUNTING_SD
 
     def record(self, where: str) -> model.ControlMomentGyro:
         """Return the gyro, its spin axis exactly square to the gimbal's."""
@@ -93,12 +92,8 @@ class Magnetorquer(RecordTable):
     axis: Direction
     max_dipole_A_m2: Positive
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the dipole")
-    gain_sd_percent: NotNegative = Field(
-        1.0, description="one sd of its dipole, chosen: a data sheet; 0: exact"
-    )
-    mounting_sd_deg: NotNegative = Field(
-        0.2, description="one sd about each direction across its axis, chosen: bolted on; 0: exact"
-    )
+    gain_sd_percent: NotNegative = GAIN_SD
+    mounting_sd_deg: NotNegative = MOUNTING_SD
 
 
 class JetPair(RecordTable):
@@ -111,12 +106,8 @@ class JetPair(RecordTable):
     torque_N_m: Positive = Field(description="while on")
     min_pulse_ms: NotNegative = 0.0
     lag_ms: NotNegative = Field(0.0, description="first-order, from the valve to the torque")
-    gain_sd_percent: NotNegative = Field(
-        1.0, description="one sd of its torque, chosen: a data sheet; 0: exact"
-    )
-    mounting_sd_deg: NotNegative = Field(
-        0.2, description="one sd about each direction across its axis, chosen: bolted on; 0: exact"
-    )
+    gain_sd_percent: NotNegative = GAIN_SD
+    mounting_sd_deg: NotNegative = MOUNTING_SD
 
 
 class MagneticField(RecordTable):
