@@ -19,7 +19,7 @@ from tests.support import thorough
 from tests.support.outcomes import codes_of
 from tests.support.platform_runs import platform_runs
 
-SEEDS = thorough.count(20, 3)
+SEEDS = thorough.count(20, 2)
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from equipoise.estimation.model_selection.reference_fit import estimate
@@ -10,6 +11,7 @@ from equipoise.model.outcome import Trust
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.recording import Samples
 from tests.oracle import cases
+from tests.oracle.defects import Defects
 from tests.support import thorough
 
 
@@ -19,6 +21,19 @@ def turned_round(record):
     return replace(record, attitude=Samples(record.attitude.t, q))
 
 
+@pytest.mark.parametrize("seed", range(thorough.count(3, 1)))
+def test_a_gyro_that_seems_turned_by_6_deg_is_found_and_not_trusted(seed):
+    """Six degrees about the vertical: five times what a real mounting errs by."""
+    turn = np.deg2rad(6.0)
+    matrix = np.array([[0.0, turn, 0.0], [-turn, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    logged = cases.case_i(seed, defects=Defects(gyro_matrix=matrix))
+    found = estimate(logged.recording, logged.testbed, Params())
+    (reason,) = [r for r in found.outcome.reasons if r.code is Why.SENSOR_IMPLAUSIBLE]
+    assert set(reason.parameters) <= {"gyro_xy", "gyro_yx"}
+    assert found.outcome.trust is Trust.NOT_TRUSTWORTHY
+
+
+@thorough.whole  # a minute a seed
 @pytest.mark.parametrize("seed", range(thorough.count(3, 1)))
 def test_a_quaternion_that_turns_the_other_way_is_not_trusted(seed):
     """Camera and gyro cannot both be right; what absorbs it is no error of a gyro."""
