@@ -7,6 +7,7 @@ the vertical and tilts by some degrees. Every second seed has a camera that lean
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.signal import lfilter
 
 from equipoise.estimation.output_error.problem import element_sizes
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
@@ -19,6 +20,7 @@ from tests.oracle import mujoco_bench as oracle
 
 MOMENTS, PRODUCT = np.array([0.028, 0.025, 0.031]), 3e-4  # kg m^2
 LEAN = np.radians(0.2)
+STEP, MEMORY = 5e-3, 3.0  # s
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,12 +75,30 @@ def leaning(record: Recording, lean: np.ndarray) -> Recording:
     return replace(record, attitude=Samples(attitude.t, turned))
 
 
-def quiet(seed: int, spin_deg_s: float | None = None, inertia_sd: float = 0.05) -> Quiet:
-    """Return two minutes of a camera of 10 Hz and 0.05 deg; spin of 10 to 60 deg/s unless given."""
+def wandering(seed: int, size: float) -> np.ndarray:
+    """Return a torque in laboratory axes, N m, of this rms and ``MEMORY``, at every step."""
+    steps, keep = len(oracle.middles(2 * MINUTE, STEP)), np.exp(-STEP / MEMORY)
+    white = np.random.default_rng([36, seed]).normal(0.0, size, (steps, 3))
+    return lfilter([np.sqrt(1 - keep**2)], [1.0, -keep], white, axis=0)
+
+
+def quiet(
+    seed: int,
+    spin_deg_s: float | None = None,
+    inertia_sd: float = 0.05,
+    drag: float = 0.0,
+    torque: float = 0.0,
+) -> Quiet:
+    """Return two minutes of a camera of 10 Hz and 0.05 deg; spin of 10 to 60 deg/s unless given.
+
+    With drag (N m s, about each axis) and a torque that wanders (N m, rms).
+    """
     rng = np.random.default_rng([35, seed])
     drawn = rng.choice([-1.0, 1.0]) * rng.uniform(10.0, 60.0)
     platform = body(rng, np.radians(drawn if spin_deg_s is None else spin_deg_s))
-    run = oracle.simulate(platform, (), 2 * MINUTE, dt=5e-3, locked=True)
+    platform = replace(platform, viscous=np.full(3, drag))
+    wander = wandering(seed, torque)
+    run = oracle.driven(platform, np.zeros((len(wander), 0)), wander, STEP)
     camera = AttitudeSensor(10.0, np.radians(0.05))
     record = oracle.sensor_log(run, rng, camera.rate, camera.noise)
     record = replace(record, masses=None, mass_names=())

@@ -68,6 +68,10 @@ MATHS = _of(
 
 ACTUATORS = _of(
     "actuators",
+    ("travel_times.py", "sd = slack / np.sqrt(12)", "sd = slack",
+     "actuators/test_travel_times.py"),
+    ("travel_times.py", "return (behind - ahead) / (2 * h)", "return (ahead - behind) / (2 * h)",
+     "actuators/test_travel_times.py"),
     ("sliding_masses.py", "m * (2 * dot * unit", "m * (dot * unit",
      "actuators/test_sliding_masses.py"),
     ("sliding_masses.py", "gain * m * (unit - ", "m * (unit - ",
@@ -159,6 +163,15 @@ ASSESSMENT = _of(
 
 ESTIMATION = _of(
     "estimation",
+    ("output_error/input_errors.py", "each.direct + covariance @ each.descent",
+     "each.direct - covariance @ each.descent", "estimation/output_error/test_input_errors.py"),
+    ("output_error/input_errors.py", "np.cross(axis, AXES).T for axis",
+     "np.cross(axis, AXES) for axis", "estimation/output_error/test_input_errors.py"),
+    ("motion/unresolved_rates.py", "doubtful_rates(track, testbed) > gyro.noise",
+     "doubtful_rates(track, testbed) > 1e9 * gyro.noise",
+     "estimation/model_selection/test_moves_between_rows.py"),
+    ("events/record_model.py", "return found if np.isfinite(found) else np.inf", "return found",
+     "estimation/model_selection/test_quiet_records.py::test_a_model_that_is_no_number_never_wins"),
     ("events/jump_test.py", "/ FALSE_ALARM / len(KINDS)", "/ FALSE_ALARM",
      "estimation/events/test_event_evidence.py"),
     ("events/process_noise_spectrum.py", "np.mean(sums**2, axis=0) / n",

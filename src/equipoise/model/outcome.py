@@ -52,7 +52,7 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.RUNS_DISAGREE,
     ),
     OutcomeCode.IMPOSSIBLE: (Why.IMPOSSIBLE_INERTIA, Why.FILTER_DIVERGED),
-    OutcomeCode.NOT_CONVERGED: (Why.NOT_CONVERGED,),
+    OutcomeCode.NOT_CONVERGED: (Why.NOT_CONVERGED, Why.MOTION_NOT_FOUND),
     OutcomeCode.NOT_ESTIMATED: (
         Why.TOO_FEW_RESTS,
         Why.RESTS_TOO_ROUGH,
@@ -78,6 +78,7 @@ NOT_TRUSTWORTHY = (
     Why.SWINGS_AT_REST,
     Why.RESTS_DISAGREE,
     Why.CROSS_CHECKS_DISAGREE,
+    Why.SENSOR_IMPLAUSIBLE,
 )
 
 

@@ -20,7 +20,7 @@ from equipoise.model.testbed import AttitudeSensor
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import cases
 from tests.oracle import mujoco_bench as oracle
-from tests.support import thorough
+from tests.support import quiet_records, thorough
 
 DURATION, RATE, NOISE, STEP = 40.0, 10.0, np.deg2rad(0.02), 1e-3
 TORQUE, MEMORY = 1e-4, 5.0  # N m, s
@@ -71,6 +71,18 @@ def test_a_driven_quiet_record_gives_its_body(seed):
     assert np.abs(errors_in_sd(platform, found)).max() < SURE
     moments = np.diag(platform.inertia_P)
     assert np.abs(found.values(BODY[:3]) - moments).max() < 0.05 * moments.max()
+
+
+@pytest.mark.parametrize("how", [{"drag": 1e-6}, {"torque": 1e-6}], ids=["drag", "draught"])
+@pytest.mark.parametrize("seed", range(thorough.count(10, 2)))
+def test_what_acts_all_the_time_is_no_touch(how, seed):
+    """Two impulses explain a minute as well as a drag or a draught does, and bend com by 10 sd."""
+    found = quiet_records.quiet(seed, **how)
+    for minute in found.minutes:
+        *_, last = identify(minute, found.testbed, IdentifyOptions("trajectory", use_prior=True))
+        assert last.estimate.outcome.usable
+        assert not last.estimate.events
+        assert np.abs(errors_in_sd(found.platform, last.estimate)).max() < SURE
 
 
 def model_of(seed):

@@ -25,6 +25,7 @@ from equipoise.estimation.model_selection.survey_reasons import (
     lean_reasons,
     noise_reasons,
     open_terms,
+    sensor_reasons,
     term_reasons,
     walk_reasons,
 )
@@ -99,6 +100,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
     found = [*base.reasons, *event_reasons(concluded, model), *noise_reasons(model)]
     found += [
         *lean_reasons(model, concluded),
+        *sensor_reasons(model, concluded),
         *term_reasons(model, requested),
         *walk_reasons(model),
     ]

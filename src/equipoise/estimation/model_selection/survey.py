@@ -39,17 +39,25 @@ from equipoise.estimation.events.noise_identification import (
     weighed,
 )
 from equipoise.estimation.events.process_noise_spectrum import coloured
-from equipoise.estimation.events.record_model import Happening, RecordModel, improbability, smoothed
+from equipoise.estimation.events.record_model import (
+    Happening,
+    RecordModel,
+    improbability,
+    refitted,
+    smoothed,
+)
 from equipoise.estimation.model_selection import survey_reasons
 from equipoise.estimation.model_selection.initial_model import is_close, is_near
 from equipoise.estimation.model_selection.model_choice import (
     Refused,
     bared,
     best_group,
+    candidates,
     extended,
     is_lawful,
     levelled,
     likeliest,
+    with_group,
 )
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import Params
@@ -132,11 +140,14 @@ def is_calm(model: RecordModel) -> bool:
     return white and bool(excesses(after, undisturbed).max() < WRONG)
 
 
-def driven(model: RecordModel) -> RecordModel:
-    """Return the model of a platform that something unknown drives: with process noise."""
+def driven(model: RecordModel, most: int = MOST_EVENTS) -> RecordModel:
+    """Return the model of a platform that something unknown drives: with process noise.
+
+    And with at most so many events.
+    """
     model = model if model.wanders else wandering(model)
     for turn in range(ROUNDS):
-        wider = searched(model, MOST_EVENTS)
+        wider = searched(model, most)
         if turn > 0 and contents(wider) == contents(model):
             break
         model = weighed(settled(wider))
@@ -164,12 +175,23 @@ def contents(model: RecordModel) -> tuple[object, ...]:
     return (model.params.terms, model.params.sensor, *kinds)
 
 
+def lawfully(model: RecordModel, greedy: RecordModel) -> RecordModel:
+    """Return ``greedy``, or what is found from a term beside the plain model that is likelier."""
+    if not greedy.events:
+        return greedy
+    termed = [refitted(with_group(model, group)) for group in candidates(model)]
+    best = likeliest([greedy, *termed])
+    return greedy if best is greedy else likeliest([greedy, repeated(best)])
+
+
 def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
     """Return the model without process noise, from all that was found at first: ``greedy``.
 
     An unknown event may resemble a term, and a term events. So where both are
-    found, or neither is enough, all is sought once more, events first; the likelier is taken.
+    found, or neither is enough, all is sought once more, events first; the likelier is taken. A
+    term may promise little while the fit without it is far off: each is tried against events.
     """
+    greedy = lawfully(model, greedy)
     plain = (greedy.params.terms, greedy.params.sensor) == (
         model.params.terms,
         model.params.sensor,
@@ -206,7 +228,7 @@ def examined(model: RecordModel) -> RecordModel:
         if is_drowned(wild):
             return wild
         if not (is_near(model.fitted) and model.fitted.converged):
-            return doubted(driven(wild))
+            return doubted(driven(wild, FEW_EVENTS))
     greedy = repeated(model)
     if len(greedy.events) < MANY:
         return doubted(compared(model, calm(model, greedy)))
@@ -218,18 +240,27 @@ def examined(model: RecordModel) -> RecordModel:
     return doubted(compared(model, greedy, pushed))
 
 
+def is_rather_driven(model: RecordModel, touched_model: RecordModel) -> bool:
+    """Say whether process noise alone, beside the plain model, is likelier than some events."""
+    if not touched_model.events:
+        return False
+    wild, _, _ = calibrated(wandering(model))
+    return improbability(weighed(wild)) < improbability(touched_model)
+
+
 def compared(
     model: RecordModel, greedy: RecordModel, pushed: RecordModel | None = None
 ) -> RecordModel:
     """Return the likeliest of a model without process noise, ``greedy``, and those with it.
 
-    One that explains all needs no rival, unless with ``MANY`` events: they explain anything, such
-    as a motor's push. How much process noise there is depends on which events the model has: it
-    is sought from none (``pushed``, where that is at hand) and from all.
+    One that explains all needs no rival, unless with ``MANY`` events, which explain anything, such
+    as a motor's push, or where process noise without an event is likelier than a few. How much
+    process noise there is depends on which events the model has: it is sought from none
+    (``pushed``, where that is at hand) and from all.
     """
     simple = pruned(greedy, colour_of(greedy))
     explained = is_calm(simple)
-    if explained and len(simple.events) < MANY:
+    if explained and len(simple.events) < MANY and not is_rather_driven(model, simple):
         return simple
     models = [simple, pushed or driven(model)]
     if greedy.events and not explained:

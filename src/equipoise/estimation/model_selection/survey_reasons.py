@@ -8,7 +8,7 @@ from equipoise.estimation.model_selection.model_choice import candidates, with_g
 from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
-from equipoise.estimation.parameters.fit_parameters import CORE
+from equipoise.estimation.parameters.fit_parameters import CORE, sensor_sizes
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate
@@ -18,6 +18,7 @@ from equipoise.model.reasons.reason import Reason, axes_of
 
 NOISY = 1.3  # chosen: a noise off by more is reported
 OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, unreported
+IMPLAUSIBLE = 4.0  # sd of real sensors' errors, chosen
 LEANS = 4.0  # sd, chosen: a smaller lean is corrected unreported
 DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which gravity's shows too little
 
@@ -57,6 +58,22 @@ def lean_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:
     if lean @ np.linalg.solve(covariance, lean) < LEANS**2:
         return []
     return [Reason(Why.CAMERA_LEANS, (), {"lean": float(np.linalg.norm(lean))})]
+
+
+def sensor_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:
+    """Return the errors of sensors that are far larger than any real one, and not by chance.
+
+    They may stand for another error, such as an attitude that turns the other way.
+    """
+    terms = model.params.sensor
+    sizes = sensor_sizes(terms, model.stated.attitude)
+    found = [concluded.parameters[concluded.index(term)] for term in terms]
+    odd = [
+        p.name
+        for p, size in zip(found, sizes, strict=True)
+        if abs(p.value) > IMPLAUSIBLE * size and abs(p.value) > LEANS * p.sd
+    ]
+    return [Reason(Why.SENSOR_IMPLAUSIBLE, tuple(odd))] if odd else []
 
 
 def gravity_torque(model: RecordModel) -> float:

@@ -1,5 +1,6 @@
 """From an optimum to an estimate: covariance, intervals, what was not observed, and the outcome."""
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -37,7 +38,7 @@ from equipoise.maths.linalg import inverse_where, lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import BODY, COM, END, Estimate, Parameter, Residual
-from equipoise.model.outcome import Outcome, outcome
+from equipoise.model.outcome import Outcome, OutcomeCode, outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
@@ -45,6 +46,8 @@ from equipoise.model.recording import Recording
 SURE = 4.0  # sd of a statistic before it counts as more than chance
 MOSTLY = 0.5  # of a variance, chosen: an input that gives more limits it
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
+LOST = np.deg2rad(3.0)  # rms an axis, chosen: no torque on a bearing puts a followed motion off so
+BESIDE = 10.0  # times the noise, chosen: a camera so coarse may leave more
 UNSETTLED = outcome(Why.NOT_CONVERGED)
 
 
@@ -111,11 +114,13 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
 
 def outcome_of(fitted: Fitted, residual: Residual, view: Visibility, factor: float) -> Outcome:
     """Return whether the numbers may be used, and why."""
-    if not fitted.converged:
-        return UNSETTLED
     camera = residual.attitude_rms is not None
     rms = {"attitude_rms": residual.attitude_rms or 0.0} if camera else {
         "rate_rms": residual.rate_rms or 0.0}  # fmt: skip
+    if camera and rms["attitude_rms"] > max(LOST, BESIDE * fitted.problem.observed.attitude_sd):
+        return outcome(Why.MOTION_NOT_FOUND, **rms)
+    if not fitted.converged:
+        return UNSETTLED
     if residual.reduced_chi_square > EXPLAINED:
         code = Why.UNEXPLAINED_ATTITUDE if camera else Why.UNEXPLAINED_RATE
         times = float(np.sqrt(residual.reduced_chi_square))
@@ -228,6 +233,14 @@ def smoothed_residual(fitted: Fitted) -> tuple[Smoothed | None, Residual]:
     return after, residual_of(fitted, freedom(fitted, after) if after else 0.0)
 
 
+def meaningless(fitted: Fitted, parameters: tuple[Parameter, ...]) -> tuple[Parameter, ...]:
+    """Return what a lost search ended at, without an sd; what is held is held."""
+    held = set(itertools.compress(fitted.problem.layout.names, fitted.problem.prior.held))
+    return tuple(
+        p if p.name in held else replace(p, sd=np.inf, observable=False) for p in parameters
+    )
+
+
 def spread_of(fitted: Fitted, coloured: float = 1.0) -> tuple[tuple[Parameter, ...], Floats]:
     """Return named values and their covariance with every prior counted, and nothing hidden.
 
@@ -258,7 +271,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     return Estimate(
         method,
         Outcome((*found.reasons, *limits)) if found.usable else found,
-        parameters,
+        meaningless(fitted, parameters) if found.code is OutcomeCode.NOT_CONVERGED else parameters,
         covariance,
         residual,
         view.unobservable,

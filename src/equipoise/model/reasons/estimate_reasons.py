@@ -35,6 +35,12 @@ class EstimateReason(Code):
         "{spectral_peak:.2g} times the mean): intervals are widened {widening:.2g} times.",
     )
     NOT_CONVERGED = "not_converged", "The fit did not settle; its numbers mean nothing."
+    MOTION_NOT_FOUND = (
+        "motion_not_found",
+        "The fit did not find the motion: it leaves {attitude_rms:deg .2g} deg rms per axis, and "
+        "its numbers mean nothing. Try a shorter part of the record, or hold what is known of the "
+        "body.",
+    )
     RATIOS_ONLY = (
         "ratios_only",
         "The scale is open: only ratios of inertia and centre of mass are known.",
@@ -64,6 +70,11 @@ class EstimateReason(Code):
     CAMERA_LEANS = (
         "camera_leans",
         "The camera's vertical leans {lean:deg .2g} deg from gravity's; that is corrected.",
+    )
+    SENSOR_IMPLAUSIBLE = (
+        "sensor_implausible",
+        "But errors of sensors are larger than real ones are ({names}): they may stand for another "
+        "error, such as axes or an attitude read the other way; do not trust the intervals.",
     )
     TORQUE_WANDERS = (
         "torque_wanders",
