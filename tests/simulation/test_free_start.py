@@ -7,11 +7,11 @@ import pytest
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import tilt
+from equipoise.model.units import UM
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.carried_out import record, recorded
 from equipoise.simulation.free_start import freely
 
-UM = 1e-6
 LIMIT = np.radians(30.0)
 
 

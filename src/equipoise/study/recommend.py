@@ -23,9 +23,9 @@ from typing import Literal
 
 from scipy.stats import binom
 
-from equipoise.maths.bounded_share import bounded_share
 from equipoise.model.criterion import VerdictOutcome, decided
 from equipoise.model.units import MS, UN_M
+from equipoise.study.bounded_share import bounded_share
 from equipoise.study.compare_laws import Comparison, LawSummary
 from equipoise.study.compare_methods import WRONG, MethodSummary, Ratios
 

@@ -181,7 +181,7 @@ def test_what_is_held_neither_scatters_nor_is_estimated():
     assert error @ np.linalg.solve(estimate.covariance_of(names), error) / 8 < 4.0
 
 
-def test_no_number_of_runs_tells_more_of_an_input_that_is_alike_in_all():
+def test_no_number_of_runs_improves_an_input_that_is_alike_in_all():
     """A platform weighed to 5 %: com of three runs is no better known than that."""
     runs = platform_runs(2, (True, True, True))
     runs = replace(runs, testbed=replace(runs.testbed, mass_sd=0.05))

@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.gaussian_box import bounded_use
 from equipoise.model.arrays import Matrix3, Series3, Vector3
 from equipoise.model.criterion import HELD, jointly
 from equipoise.model.reasons.reason import axes_of
 from equipoise.model.verdict import Verdict
+from equipoise.procedure.steps.gaussian_box import bounded_use
 from equipoise.procedure.steps.verify import Aim, axes_in_doubt
 
 

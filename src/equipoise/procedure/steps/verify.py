@@ -1,7 +1,7 @@
 """Verify that the centre of mass is at its target, on data since the last move.
 
 Judged is the share of the tolerances that com - target uses, all axes together with their
-covariance (``maths.gaussian_box``), by the rule of ``model.criterion``.
+covariance (``procedure.steps.gaussian_box``), by the rule of ``model.criterion``.
 """
 
 from dataclasses import dataclass, field
@@ -10,7 +10,6 @@ import numpy as np
 from scipy.special import ndtr
 
 from equipoise.control.plant.swing_estimates import drift_of
-from equipoise.maths.gaussian_box import bounded_use, probability_inside
 from equipoise.maths.gaussian_length import SURE, Bounded
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.criterion import BALANCED
@@ -21,6 +20,7 @@ from equipoise.model.reasons.reason import Reason, axes_of
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
+from equipoise.procedure.steps.gaussian_box import bounded_use, probability_inside
 from equipoise.procedure.steps.joint_fit import Knowledge
 
 CONTRADICTION = 4.0  # sd between what a move predicted and what was found

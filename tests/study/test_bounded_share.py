@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from equipoise.maths.bounded_share import bounded_share
+from equipoise.study.bounded_share import bounded_share
 
 
 def test_none_of_some_runs_by_hand():

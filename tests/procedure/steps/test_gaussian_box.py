@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import ndtr
 
-from equipoise.maths.gaussian_box import bounded_use, probability_inside
+from equipoise.procedure.steps.gaussian_box import bounded_use, probability_inside
 
 TOLERANCE = np.array([2.0, 2.0, 3.0])
 NOTHING = np.zeros(3)

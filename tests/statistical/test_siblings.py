@@ -1,0 +1,110 @@
+"""The section `siblings` of `make verify`, reduced; and that it counts what it says."""
+
+import pytest
+
+pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
+
+from equipoise.model.estimate import Parameter
+from tests.oracle.corpus import corpus_record
+from tests.support import thorough
+from tests.support.limited_work import broken, dead, endless
+from verification import siblings
+from verification.judged_records import (
+    Conclusion,
+    Judged,
+    errors,
+    is_shown,
+    judged,
+    part_of,
+    reference,
+)
+from verification.limited import limited
+
+SEEDS = (1, 5, 4)  # short records, with masses: exact, by command only, late
+
+
+@pytest.mark.parametrize("seed", thorough.some(SEEDS, 1))
+def test_no_number_is_wrong_and_halves_agree(seed) -> None:
+    record = corpus_record(seed)
+    parts = [part_of(record.recording, part) for part in range(3)]
+    conclusions = [reference(part, record.testbed) for part in parts]
+    runs = [
+        Judged("", conclusion, errors(conclusion, record), None, 1.0, "")
+        for conclusion in conclusions
+    ]
+    assert runs[0].conclusion.usable
+    assert not any(run.wrong for run in runs)
+    assert siblings.sibling_row("halves", [runs[1:]]).ok
+
+
+def test_the_bound_at_the_truth_shows_inertia_where_masses_move_alone() -> None:
+    moved, free = corpus_record(4), corpus_record(0)
+    assert is_shown(moved, moved.recording)
+    assert not is_shown(free, free.recording)
+
+
+# --- counting -------------------------------------------------------------------------------------
+
+
+def run(z: float = 0.0, usable: bool = True, shown: bool | None = None, sd: float = 1.0) -> Judged:
+    """Return a record whose com_x is z sd off zero."""
+    firm = (Parameter("com_x", "m", z * sd, sd),) if usable else ()
+    conclusion = Conclusion(usable, usable, "", firm)
+    return Judged("seed 0", conclusion, {"com_x": z} if usable else {}, shown, 1.0, "")
+
+
+LOST = Judged("seed 0", None, {}, None, 60.0, "no end within 60 s")
+
+
+def found_by_row(runs: list[Judged]) -> dict[str, str]:
+    """Return what is found, by the first words of the quantity."""
+    return {
+        row.quantity.split(":")[0].split(" (")[0]: row.found for row in siblings.corpus_rows(runs)
+    }
+
+
+def test_each_record_is_counted_once_for_what_it_is() -> None:
+    runs = [run(1.0), run(5.1), run(usable=False, shown=True), run(usable=False, shown=False), LOST]
+    found = found_by_row(runs)
+    assert found["95 % intervals, of 2 stated as trustworthy, that hold the truth"] == "50.0%"
+    assert found["records refused"] == "2 of 5"
+    assert found["the same, though the bound tells J within 10%"] == "20.0%"
+    assert (found["wrong"], found["lost"]) == ("1", "1")
+    assert found["the same, worst"] == "60"
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "ok"),
+    [
+        (run(0.0), run(4.2), True),  # 4.2 / sqrt(2) = 2.97
+        (run(0.0), run(4.3), False),  # 3.04
+        (run(0.0), run(usable=False), True),
+        (run(0.0), LOST, True),
+    ],
+)
+def test_siblings_agree_within_three_sd_or_one_is_refused(one, other, ok) -> None:
+    assert siblings.sibling_row("halves", [[one, other]]).ok is ok
+
+
+# --- limits ---------------------------------------------------------------------------------------
+
+
+def test_work_without_end_is_stopped_and_its_answer_kept() -> None:
+    tried = limited(endless, 7, 0.5)
+    assert tried.answers == (7,)
+    assert tried.stopped == "no end within 0.5 s"
+
+
+@pytest.mark.parametrize(("work", "why"), [(broken, "ValueError: no rows"), (dead, "exit code 3")])
+def test_what_stops_work_is_stated(work, why) -> None:
+    tried = limited(work, 7, 5.0)
+    assert tried.answers == (7,)
+    assert tried.stopped.startswith(why)
+
+
+@thorough.whole
+def test_a_record_without_an_end_is_lost() -> None:
+    """The limit is below what importing and fitting take."""
+    lost = judged((3, 0), limit=0.5)
+    assert lost.conclusion is None
+    assert lost.stopped == "no end within 0.5 s"
