@@ -25,13 +25,13 @@ from verification import real_record
 from verification.judged_records import LIMIT, SHOWN, THINNED, WRONG, Judged, judged, sibling
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
-APART = 3.0  # sd, of two siblings
+MOST_BETWEEN = 3.0  # sd, of two siblings
 COVERED = (0.92, 0.98)  # of 95 % intervals stated as trustworthy
 IN_VAIN, USABLE_QUIET = 0.05, 0.90  # shares of records
 STATED = 300
 
 
-def apart(one: Judged, other: Judged) -> float | None:
+def between(one: Judged, other: Judged) -> float | None:
     """Return the greatest difference of two siblings, in its sd; None where one is refused."""
     if not (
         one.conclusion and one.conclusion.usable and other.conclusion and other.conclusion.usable
@@ -74,10 +74,10 @@ def corpus_rows(runs: Sequence[Judged]) -> tuple[Row, ...]:
 def sibling_row(name: str, families: Sequence[Sequence[Judged]]) -> Row:
     """Return how many siblings, both usable, disagree."""
     pairs = [pair for family in families for pair in combinations(family, 2)]
-    distances = [(a, apart(a, b)) for a, b in pairs]
+    distances = [(a, between(a, b)) for a, b in pairs]
     known = [(a, distance) for a, distance in distances if distance is not None]
-    odd = [a for a, distance in known if distance > APART]
-    text = f"{name}: pairs, of {len(known)} usable of {len(pairs)}, over {APART:g} sd apart"
+    odd = [a for a, distance in known if distance > MOST_BETWEEN]
+    text = f"{name}: pairs, of {len(known)} usable of {len(pairs)}, over {MOST_BETWEEN:g} sd"
     return at_most(text + _list(odd), len(odd), 0, "d")
 
 

@@ -10,6 +10,7 @@ from equipoise.model.outcome import Trust
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.recording import Samples
 from tests.oracle import cases
+from tests.support import thorough
 
 
 def turned_round(record):
@@ -18,7 +19,7 @@ def turned_round(record):
     return replace(record, attitude=Samples(record.attitude.t, q))
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", range(thorough.count(3, 1)))
 def test_a_quaternion_that_turns_the_other_way_is_not_trusted(seed):
     """Camera and gyro cannot both be right; what absorbs it is no error of a gyro."""
     logged = cases.case_i(seed)
@@ -26,7 +27,7 @@ def test_a_quaternion_that_turns_the_other_way_is_not_trusted(seed):
     assert found.outcome.trust in {Trust.NOT_TRUSTWORTHY, Trust.NOT_USABLE}
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", range(thorough.count(3, 1)))
 def test_a_gyro_with_errors_that_gyros_have_is_trusted(seed):
     """Scale 1 % and 0.3 deg of misalignment, as low-cost ones have."""
     logged = cases.case_i(seed, ("gyro",))

@@ -63,7 +63,7 @@ def errors_in_sd(kind: str, seed: int):
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_move_within_rows_is_no_event_and_leaves_the_scale(kind):
     """Intervals hold, and nothing is stepped over at the time of the move."""
-    for seed in range(thorough.count(20, 3)):
+    for seed in range(thorough.count(20, 2)):
         found, _ = estimated(kind, seed)
         assert found.outcome.usable
         assert all(abs(event.t - MOVED) > NEAR for event in found.events), (kind, seed)
@@ -73,7 +73,7 @@ def test_a_move_within_rows_is_no_event_and_leaves_the_scale(kind):
 @pytest.mark.parametrize("kind", KINDS)
 def test_intervals_are_as_wide_as_errors_of_moves_within_rows(kind):
     """The mean square error in sd is that of chance: nine values a record, not independent."""
-    seeds = range(thorough.count(20, 3))
+    seeds = range(thorough.count(20, 2))
     square = np.mean([np.mean(errors_in_sd(kind, seed) ** 2) for seed in seeds])
     few = 9 * len(seeds) / 3
     assert square < 1 + 3 * np.sqrt(2 / few)

@@ -61,7 +61,7 @@ def errors_in_sd(platform, estimate):
     return np.divide(off, sd, out=np.zeros(9), where=sd > 0)
 
 
-@pytest.mark.parametrize("seed", range(thorough.count(20, 2)))
+@pytest.mark.parametrize("seed", range(thorough.count(20, 1)))
 def test_a_driven_quiet_record_gives_its_body(seed):
     """Usable, no value off by five sd, moments within 5 %."""
     platform, bed, record = draughty(seed)
@@ -74,7 +74,7 @@ def test_a_driven_quiet_record_gives_its_body(seed):
 
 
 @pytest.mark.parametrize("how", [{"drag": 1e-6}, {"torque": 1e-6}], ids=["drag", "draught"])
-@pytest.mark.parametrize("seed", range(thorough.count(10, 2)))
+@pytest.mark.parametrize("seed", range(thorough.count(10, 1)))
 def test_what_acts_all_the_time_is_no_touch(how, seed):
     """Two impulses explain a minute as well as a drag or a draught does, and bend com by 10 sd."""
     found = quiet_records.quiet(seed, **how)

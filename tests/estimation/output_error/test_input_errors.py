@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.estimation.output_error.fit_estimate import conclude, end_rows, reported_shifts
@@ -137,3 +138,14 @@ def test_intervals_hold_where_every_input_is_wrong_within_its_sd():
     square = np.mean(off**2)
     assert 0.4 < square < 1.0 + 3.0 * np.sqrt(2.0 / (3 * len(off)))
     assert np.mean(np.abs(off) < 1.96) > 0.9
+
+
+def test_ratios_of_an_open_scale_count_the_platform_mass_by_hand():
+    """com / J is m g r / J over m g: known no better than the platform's mass, to 2 %."""
+    record = noisy(recording(120.0), 0)
+    sds = []
+    for testbed in (platform(), replace(platform(), mass_sd=SD)):
+        found = conclude(fit(record, testbed, Params()), METHOD, record)
+        (ratio,) = [r for r in found.ratios if r.name.startswith("com_z/")]
+        sds.append(ratio.sd / abs(ratio.value))
+    assert np.sqrt(sds[1] ** 2 - sds[0] ** 2) == pytest.approx(SD, rel=0.05)

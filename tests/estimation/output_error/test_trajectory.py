@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.model_selection.reference_fit import estimate
-from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.output_error.trajectory import Params, fastest_rate, fit
 from equipoise.estimation.parameters import fit_parameters
 from equipoise.estimation.parameters.fit_parameters import Unknowns, physical
 from equipoise.maths.attitude import difference, exponential, logarithm, multiply
@@ -309,3 +309,11 @@ def test_residual_is_that_of_the_camera():
     assert residual.degrees_of_freedom == 3 * 601 - fit_parameters.FIXED - 2  # the camera's lean
     assured = estimate(noisy(clean(), 5), level(guessed_wrong(platform())), Params()).residual
     assert assured.degrees_of_freedom == 3 * 601 - fit_parameters.FIXED
+
+
+def test_a_part_of_one_row_has_no_rate():
+    """A sparse record's first part may hold a single camera row: nothing says how fast it turns."""
+    one = Recording(Samples(np.array([0.0]), np.array([[1.0, 0, 0, 0]])))
+    assert fastest_rate(one) == 0.0
+    two = Recording(Samples(np.array([0.0, 0.5]), np.array([[1.0, 0, 0, 0], [0.0, 0, 0, 1]])))
+    assert fastest_rate(two) == pytest.approx(2 * np.pi)

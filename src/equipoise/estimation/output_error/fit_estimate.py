@@ -269,6 +269,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     factor = max(widening(residual), coloured)
     parameters, covariance, limits = parameters_of(fitted, view, factor, after)
     found = outcome_of(fitted, residual, view, factor)
+    body = [[p.name for p in parameters].index(name) for name in BODY]  # as CORE, inputs counted
     return Estimate(
         method,
         Outcome((*found.reasons, *limits)) if found.usable else found,
@@ -276,7 +277,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
         covariance,
         residual,
         view.unobservable,
-        ratios_of(values[CORE], view.covariance[CORE, CORE], view.unseen[CORE])
+        ratios_of(values[CORE], covariance[np.ix_(body, body)], view.unseen[CORE])
         if view.scale_open
         else (),
         True,

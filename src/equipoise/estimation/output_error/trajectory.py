@@ -91,7 +91,7 @@ def layout_with(errors: MassErrors, recording: Recording, params: Params) -> Lay
 
 
 def fastest_rate(recording: Recording) -> float:
-    """Return the greatest rate (rad/s) measured, roughly."""
+    """Return the greatest rate (rad/s) measured, roughly; 0 where nothing says."""
     rates: list[Floats] = []
     if recording.rate is not None and len(recording.rate):
         rates.append(np.linalg.norm(recording.rate.values, axis=1))
@@ -99,7 +99,7 @@ def fastest_rate(recording: Recording) -> float:
         q, t = recording.attitude.values, recording.attitude.t
         cosine = np.clip(np.abs(np.sum(q[1:] * q[:-1], axis=1)), 0, 1)
         rates.append(2 * np.arccos(cosine) / np.diff(t))
-    return max(float(np.percentile(r, 95)) for r in rates)
+    return max((float(np.percentile(r, 95)) for r in rates), default=0.0)
 
 
 def is_scale_open(recording: Recording, testbed: Testbed, params: Params) -> bool:
