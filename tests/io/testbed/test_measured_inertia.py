@@ -1,4 +1,4 @@
-"""Measured moments that no body can have: taken to the nearest possible, within their sd, and said."""
+"""Measured moments that no body can have: the nearest possible, within their sd, and said."""
 
 import numpy as np
 import pytest
