@@ -21,6 +21,7 @@ from equipoise.model.devices import (
 from equipoise.model.hardware import Hardware
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.presentation import Shown
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.torque_terms import GROUPS
 from equipoise.model.weights import Weight, WeightGrid
 
@@ -160,6 +161,7 @@ class Testbed(Shown):
     truth: Truth | None = None
     assumed: Mapping[str, str] = field(default_factory=dict[str, str])  # key: why it is assumed
     source: str = ""  # where it was read
+    mended: tuple[Reason, ...] = ()  # what reading it had to set right
     wheels: tuple[ReactionWheel, ...] = ()
     cmgs: tuple[ControlMomentGyro, ...] = ()
     magnetorquers: tuple[Magnetorquer, ...] = ()

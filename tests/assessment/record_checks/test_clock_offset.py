@@ -80,3 +80,18 @@ def test_a_gyro_that_is_late_itself_takes_from_the_lag() -> None:
     gyro = Gyro(50.0, 1e-3, 1e-2, delay=0.03)
     (fits,) = offset_findings(*observed(0.04, 1), AttitudeSensor(10.0, 1e-3, 0.07), gyro)
     assert fits.kind == "content"
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_gyro_in_another_unit_shows_no_offset(seed) -> None:
+    """Rates in rad/s that are taken for deg/s: the search for a lag runs off the record."""
+    attitude, rate = observed(0.04, seed)
+    assert clock_offset(attitude, Samples(rate.t, np.radians(rate.values))) is None
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_gyro_that_shows_nothing_but_noise_shows_no_offset(seed) -> None:
+    attitude, rate = observed(0.04, seed)
+    noise = 1e-3 * np.random.default_rng(seed).normal(size=rate.values.shape)
+    assert clock_offset(attitude, Samples(rate.t, noise)) is None
+    assert clock_offset(attitude, Samples(rate.t, 0.0 * noise)) is None

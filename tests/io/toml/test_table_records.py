@@ -85,7 +85,9 @@ def test_every_unit_of_a_key_has_a_size_in_si() -> None:
 def test_every_attribute_of_a_testbed_has_a_key() -> None:
     """Only the file's name is no key."""
     keys = {key.attribute for table in (TestbedFile, *parts()) for key in keys_of(table)}
-    assert {field.name for field in fields(Testbed)} - {k.split(".")[0] for k in keys} == {"source"}
+    of_reading = {"source", "mended"}
+    attributes = {field.name for field in fields(Testbed)}
+    assert attributes - {k.split(".")[0] for k in keys} == of_reading
 
 
 def parts() -> list[type[Table]]:

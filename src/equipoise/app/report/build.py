@@ -20,7 +20,7 @@ from equipoise.app.text.blocks import (
     tabulated,
 )
 from equipoise.app.text.estimate_text import estimate_tables, residual_line, unobservable_items
-from equipoise.app.text.run_blocks import finding_items, moment_of
+from equipoise.app.text.run_blocks import finding_items, moment_of, reason_items
 from equipoise.model.estimate import Estimate
 from equipoise.model.finding import Finding
 from equipoise.model.step import Step
@@ -84,6 +84,7 @@ def _platform(bed: Testbed) -> Iterator[Block]:
     yield _pairs(_platform_pairs(bed))
     if bed.masses:
         yield masses_table("", bed.masses)
+    yield from reason_items(bed.mended)
     if bed.assumed:
         yield Heading("Assumed, not measured")
         yield _pairs(bed.assumed)

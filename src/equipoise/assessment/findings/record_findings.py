@@ -39,6 +39,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *agreement_findings(recording.attitude, recording.rate),
         *offset_findings(recording.attitude, recording.rate, *sensors),
         *unstated_findings(recording, testbed),
+        *(Finding("mended", (reason,)) for reason in (testbed.mended if testbed else ())),
         *(Finding("mended", one_reason(Why.SET_RIGHT, note)) for note in recording.notes),
     )
 

@@ -73,15 +73,13 @@ def clock_offset(attitude: Samples, rate: Samples) -> ClockOffset | None:
     lags = np.linspace(-FARTHEST, FARTHEST, TRIED)
     lag = float(min(lags, key=lambda tried: float(np.sum(_left(pairs, rate, tried) ** 2))))
     for _ in range(ROUNDS):
-        slope = _slope(pairs, rate, lag)
-        weight = float(np.sum(slope**2))
-        if weight == 0:
+        lag -= _step(pairs, rate, lag)
+        if abs(lag) >= FARTHEST:
             return None
-        lag -= float(np.sum(slope * _left(pairs, rate, lag))) / weight
     left = _left(pairs, rate, lag)
     sd = _sd(_slope(pairs, rate, lag), left)
     likely = float(np.sum(left**2)) < (1.0 - SURE**2) * float(np.sum(pairs.centred**2))
-    return ClockOffset(lag, sd) if sd < VAGUE and abs(lag) < FARTHEST and likely else None
+    return ClockOffset(lag, sd) if sd < VAGUE and likely else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -109,6 +107,13 @@ class _Pairs:
         return _Pairs(start[use], end[use], (turn / duration[:, None])[use])
 
 
+def _step(pairs: _Pairs, rate: Samples, lag: float) -> float:
+    """Return by how much a lag is too long (s), to first order; infinite if nothing shows it."""
+    slope = _slope(pairs, rate, lag)
+    weight = float(np.sum(slope**2))
+    return float(np.sum(slope * _left(pairs, rate, lag))) / weight if weight > 0 else np.inf
+
+
 def _left(pairs: _Pairs, rate: Samples, lag: float) -> Series3:
     """Return what gyro and zero leave of the turns, rad/s."""
     length = (pairs.end - pairs.start)[:, None]
@@ -126,7 +131,8 @@ def _slope(pairs: _Pairs, rate: Samples, lag: float) -> Series3:
 
 
 def _sd(slope: Series3, left: Series3) -> float:
-    """Return the sd of the lag, neighbours correlated."""
-    score = np.sum(slope * left, axis=1)
+    """Return the sd of the lag, neighbours correlated; infinite if nothing shows it."""
+    score, weight = np.sum(slope * left, axis=1), float(np.sum(slope**2))
     spread = float(score @ score + 2 * score[1:] @ score[:-1])
-    return float(np.sqrt(max(spread, 0.1 * float(score @ score)))) / float(np.sum(slope**2))
+    most = float(np.sqrt(max(spread, 0.1 * float(score @ score))))
+    return most / weight if weight > 0 else np.inf

@@ -77,7 +77,7 @@ def row_averaging(attitude: Samples | None, lengths: Samples | None) -> RowAvera
     rows = np.searchsorted(attitude.t, lengths.t)
     short, speed = 1.0 - lengths.values[:, 0], _speed_squared(attitude)[rows]
     square, sd, scatter = _window_squared(short, speed)
-    if square < SURE * sd or square > (LONGEST * attitude.period) ** 2:
+    if square <= SURE * sd or square > (LONGEST * attitude.period) ** 2:
         return None
     window = float(np.sqrt(square))
     return RowAveraging(

@@ -75,7 +75,9 @@ def step_of(x: Series1) -> float | None:
     gaps = np.diff(levels)
     # Values that went through a change of unit differ in the last bits: those are no steps.
     gaps = gaps[gaps > 1e-9 * np.abs(levels).max()]
-    step = float(gaps.min())
+    step = float(gaps.min(initial=np.inf))
+    if np.isinf(step):
+        return None
     return step if np.abs(gaps / step - np.round(gaps / step)).max() < WHOLE else None
 
 

@@ -21,6 +21,7 @@ from equipoise.estimation.filters.model import Kind
 from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
 from equipoise.estimation.method_contract import SURPRISED, Method, Options, origin_of, refused
 from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise
+from equipoise.estimation.parameters.flat_body import flat_reasons
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1
 from equipoise.model.estimate import INERTIA, Estimate, Parameter
@@ -131,11 +132,12 @@ def outcome_of(surprise: Series1, more: tuple[Reason, ...]) -> Outcome:
     return Outcome((Reason(code, (), {"innovation": ratio}), *more))
 
 
-def possible(state: State, testbed: Testbed) -> bool:
-    """Say whether some body can have what was found; J that is not reported is not found."""
+def body_of(state: State, testbed: Testbed) -> MassProperties | None:
+    """Return the body that was found; None where J is not reported."""
+    if state.kind.estimated < 12:
+        return None
     com, inertia = state.mean[7:10], unpack_symmetric(state.mean[10:])
-    found = MassProperties(testbed.body.mass, com, inertia)
-    return state.kind.estimated < 12 or is_possible(found)
+    return MassProperties(testbed.body.mass, com, inertia)
 
 
 def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> Estimate:
@@ -151,8 +153,10 @@ def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> 
     state, passed = advance(begin(kind, testbed, noise), rows)
     unseen = standing_covariance(rows, recording, testbed) + leaning(state, testbed)
     covariance = at_home(state, unseen)
-    ended = outcome_of(passed.surprise, left_out(state, rows, testbed))
-    exists = possible(state, testbed)
+    body = body_of(state, testbed)
+    flat = () if body is None else flat_reasons(body)
+    ended = outcome_of(passed.surprise, (*left_out(state, rows, testbed), *flat))
+    exists = body is None or is_possible(body)
     if not exists:
         ended = outcome(Why.FILTER_DIVERGED)
     return Estimate(

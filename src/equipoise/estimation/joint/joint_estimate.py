@@ -41,11 +41,13 @@ from equipoise.estimation.output_error.fit_estimate import (
     widening,
 )
 from equipoise.estimation.output_error.trajectory import METHOD
+from equipoise.estimation.parameters.flat_body import flat_reasons
 from equipoise.estimation.parameters.observability import Visibility
 from equipoise.estimation.parameters.scale_free_ratios import ORDER, ratios_of
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.joint_estimate import JointEstimate, RunScatter
+from equipoise.model.mass_properties import MassProperties
 from equipoise.model.outcome import Outcome, outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason, one_reason
@@ -100,7 +102,9 @@ def estimate_jointly(runs: Sequence[Run], testbed: Testbed) -> JointEstimate:
     covariance = considered(joint, view.covariance, beside, pulls)
     wider = widened_by(scatter) ** 2 * covariance + by_inputs(joint, view.covariance)
     found = concluded(joint, view, wider)
-    estimate = replace(found, outcome=Outcome(reasons), provenance=origin_of(kept))
+    body = MassProperties(models[0].testbed.body.mass, found.com, found.inertia_P)
+    ended = Outcome((*reasons, *flat_reasons(body)))
+    estimate = replace(found, outcome=ended, provenance=origin_of(kept))
     return JointEstimate(estimate, verdict, scatter, used)
 
 

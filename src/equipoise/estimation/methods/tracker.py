@@ -9,11 +9,13 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation.method_contract import SURPRISED, Method, Options, origin_of, refused
+from equipoise.estimation.parameters.flat_body import flat_reasons
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import COM, END, INERTIA, RATE, Course, Estimate, Parameter
+from equipoise.model.mass_properties import MassProperties
 from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
@@ -54,8 +56,11 @@ def rate_course(track: tracker.Track) -> Course:
     return Course(RATE, track.t, track.rate, track.rate_sd)
 
 
-def outcome_of(track: tracker.Track) -> Outcome:
-    """Return whether the rows came as expected: those that were used, and not many were not."""
+def outcome_of(track: tracker.Track, mass: float) -> Outcome:
+    """Return whether the rows came as expected, those that were used and not many were not.
+
+    And whether the body (of a mass in kg) that it ends with is flat.
+    """
     late = track.surprise[len(track.t) // 4 :]
     used = late[late <= GATE]
     surprise = float(np.mean(used)) / 3 if len(used) else np.inf
@@ -66,7 +71,8 @@ def outcome_of(track: tracker.Track) -> Outcome:
         few = rejected < MOST * len(track.t)
         code = Why.ROWS_REJECTED if few else Why.TOO_MANY_ROWS_REJECTED
         reasons.append(Reason(code, (), {"rows": rejected}))
-    return Outcome(tuple(reasons))
+    body = MassProperties(mass, track.end.com, track.end.inertia_P)
+    return Outcome((*reasons, *flat_reasons(body)))
 
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
@@ -79,7 +85,7 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     posterior = track.end.posterior
     return Estimate(
         METHOD.card.name,
-        outcome_of(track),
+        outcome_of(track, testbed.body.mass),
         parameters_of(posterior, shift_at_end(recording, testbed)),
         posterior.covariance,
         provenance=origin_of(recording),

@@ -25,6 +25,7 @@ from equipoise.estimation.parameters.fit_parameters import (
     physical,
     unknowns_of,
 )
+from equipoise.estimation.parameters.flat_body import flat_reasons
 from equipoise.estimation.parameters.observability import (
     OPEN,
     Visibility,
@@ -133,7 +134,7 @@ def outcome_of(fitted: Fitted, residual: Residual, view: Visibility, factor: flo
         found.insert(0, Reason(Why.RATIOS_ONLY))
     elif bool(view.hidden[R].any() or view.hidden[JP].any()):
         found.append(Reason(Why.PART_UNOBSERVABLE))
-    return Outcome(tuple(found))
+    return Outcome((*found, *flat_reasons(fitted.point.body(fitted.problem.mass))))
 
 
 def parameters_of(

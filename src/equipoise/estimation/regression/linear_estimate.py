@@ -6,6 +6,7 @@ import numpy as np
 
 from equipoise.estimation.method_contract import origin_of
 from equipoise.estimation.parameters.fit_parameters import term_sizes
+from equipoise.estimation.parameters.flat_body import flat_reasons
 from equipoise.estimation.parameters.observability import DISTANCE, OPEN, Visibility, examine
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.estimation.regression.error_indices import error_indices
@@ -16,7 +17,7 @@ from equipoise.maths.whiteness import portmanteau
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import BODY, COM, INERTIA, Course, Estimate, Parameter, Residual
-from equipoise.model.mass_properties import is_possible
+from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
@@ -58,7 +59,7 @@ def conclude(
     names, values, covariance, hidden = texts(posed, rows, answer, view, whole, pinned)
     open_scale = bool(pinned)
     body = body_with(posed.testbed, dict(zip(rows.names, answer.values, strict=True)))
-    outcome = outcome_of(rows, answer, open_scale, is_possible(body))
+    outcome = outcome_of(rows, answer, open_scale, body)
     ratios = ratios_for(names, values, covariance) if open_scale else ()
     return Estimate(
         card.name,
@@ -175,9 +176,9 @@ def worst(rows: Rows, shift: Floats, answer: Answer) -> tuple[str, float] | None
     return (rows.names[k], float(by[k])) if abs(by[k]) > MATTERS else None
 
 
-def outcome_of(rows: Rows, answer: Answer, open_scale: bool, possible: bool) -> Outcome:
-    """Return whether the numbers may be used, and what to think of them."""
-    found = [] if possible else [Reason(Why.IMPOSSIBLE_INERTIA)]
+def outcome_of(rows: Rows, answer: Answer, open_scale: bool, body: MassProperties) -> Outcome:
+    """Return whether the numbers may be used, and what to think of them and of the body found."""
+    found = [] if is_possible(body) else [Reason(Why.IMPOSSIBLE_INERTIA)]
     found.append(Reason(Why.LINEAR_RATIOS if open_scale else Why.LINEAR))
     found += rows.notes
     taken = most_taken(rows, answer)
@@ -189,7 +190,8 @@ def outcome_of(rows: Rows, answer: Answer, open_scale: bool, possible: bool) -> 
         widening = float(np.sqrt(answer.excess))
         numbers = {"power": answer.excess, "widening": widening}
         found.append(Reason(Why.RESIDUAL_LARGE, (), numbers))
-    return Outcome((*found, *biases(rows, answer)))
+    flat = flat_reasons(body) if set(INERTIA) <= set(rows.names) else ()
+    return Outcome((*found, *flat, *biases(rows, answer)))
 
 
 def biases(rows: Rows, answer: Answer) -> list[Reason]:

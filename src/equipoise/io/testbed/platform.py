@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from equipoise.io.testbed.inertia_check import check_inertia
+from equipoise.io.testbed.inertia_check import check_inertia, measured
 from equipoise.io.toml.key_types import (
     Direction,
     Holds,
@@ -25,6 +25,7 @@ from equipoise.model import testbed as model
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties, from_centre
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.units import MM, MS
 
 HANGS = 1e-3  # m: a centre of mass guessed this far off P hangs there on purpose (chosen)
@@ -38,7 +39,11 @@ class Platform(RecordTable):
     inertia_kg_m2: Annotated[Square, Holds("body.inertia_P")] = Field(
         description="tensor elements: products are minus the integrals"
     )
-    inertia_sd_percent: Positive = Field(10.0, description="one sd, chosen: usual for CAD")
+    inertia_sd_percent: Positive = Field(
+        10.0,
+        description="one sd, chosen: usual for CAD; where it is stated, moments that no body can "
+        "have by chance of 3 sd at most are brought to the nearest possible",
+    )
     about: Literal["C", "P"] = Field("C", description="C: centre of mass, P: centre of rotation")
     com_um: Annotated[Triple, Holds("body.com")] = Field(
         [0.0, 0.0, 0.0], description="first guess, from P"
@@ -65,17 +70,24 @@ class Platform(RecordTable):
         1.0, description="one sd of torque that is recorded as such, chosen: a data sheet"
     )
 
-    def record(self, where: str) -> MassProperties:
-        """Return the body, whose inertia must be possible."""
+    def body(self, where: str) -> tuple[MassProperties, tuple[Reason, ...]]:
+        """Return the body, whose inertia must be possible, and what of it was not."""
         place = f"{where}.inertia_kg_m2"
         com = np.array(self.com_um) * key_factor("com_um")
-        inertia = np.array(self.inertia_kg_m2)
-        check_inertia(inertia, place)
+        inertia, stated = np.array(self.inertia_kg_m2), self._stated_share()
         if self.about == "C":
-            return from_centre(self.mass_kg, com, inertia)
+            inertia, mended = measured(inertia, stated, place)
+            return from_centre(self.mass_kg, com, inertia), mended
+        if stated is None:
+            check_inertia(inertia, place)
         body = MassProperties(self.mass_kg, com, inertia)
-        check_inertia(body.inertia_C, f"{place}, moved to the centre of mass")
-        return body
+        inertia, mended = measured(body.inertia_C, stated, f"{place}, moved to the centre of mass")
+        return from_centre(self.mass_kg, com, inertia) if mended else body, mended
+
+    def _stated_share(self) -> float | None:
+        """Return the relative sd of the inertia; None where the file does not state it."""
+        is_stated = "inertia_sd_percent" in self.model_fields_set
+        return self.inertia_sd_percent * key_factor("inertia_sd_percent") if is_stated else None
 
     @classmethod
     def more_keys(cls, record: Any) -> Mapping[str, Any]:

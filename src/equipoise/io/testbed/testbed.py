@@ -112,7 +112,7 @@ class TestbedFile(RecordTable):
     def record(self, where: str) -> Testbed:
         """Return the testbed; ``where`` is the file."""
         _check(self, where)
-        body = self.platform.record(f"{where}: platform")
+        body, mended = self.platform.body(f"{where}: platform")
         consider, truth = tuple(self.disturbance.consider), None
         if self.truth is not None:
             truth = truth_of(self.truth, self.platform, body.com, f"{where}: truth")
@@ -125,6 +125,7 @@ class TestbedFile(RecordTable):
             disturbances=expand(consider, f"{where}: disturbance.consider"),
             truth=truth,
             source=where,
+            mended=mended,
         )
 
     @classmethod

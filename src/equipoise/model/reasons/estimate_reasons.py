@@ -49,6 +49,11 @@ class EstimateReason(Code):
         "part_unobservable",
         "Part of the mass properties is not observable; those intervals are infinite.",
     )
+    FLAT_BODY = (
+        "flat_body",
+        "The best body is flat: its inertia lies at the edge of the possible, its greatest "
+        "principal moment {gap:% .1g} % below the sum of the other two. Intervals know of no edge.",
+    )
 
     # Of the model that a record supports
     EVENTS_FOUND = "events_found", "It steps over {count:.0f} events, at {names} s."

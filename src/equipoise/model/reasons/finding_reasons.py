@@ -21,6 +21,12 @@ class FindingReason(Code):
         "{0}: intervals scatter by {scatter:.2g} s about {interval:.3g} s.",
     )
     NOT_IN_TESTBED = "not_in_testbed", "{0} {1} is not in the testbed; {2}"
+    INERTIA_PROJECTED = (
+        "inertia_projected",
+        "the testbed's inertia is no body's: its greatest principal moment, {greatest:.4g} kg m2, "
+        "is {sds:.2g} sd above the sum of the other two, {others:.4g} kg m2. The nearest that a "
+        "body can have is taken.",
+    )
     SET_RIGHT = "set_right", "{0}"  # by reading the file, which says what it was
 
     # Masses and motion
