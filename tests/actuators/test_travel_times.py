@@ -5,13 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.mass_errors import mass_errors, unit_of
 from equipoise.actuators.travel_times import MOST, merged_travels, timed, unresolved_steps
 from equipoise.model.recording import Samples
 from tests.support.builders import sliding_masses
 
 SPEED = 0.01  # m/s
-X, Y, _ = (replace(mass, lag_sd=0.0, sag_sd=0.0) for mass in sliding_masses())
+X, _, _ = (replace(mass, lag_sd=0.0, sag_sd=0.0) for mass in sliding_masses())
 EVEN = 1 / np.sqrt(12)
 
 
@@ -59,32 +58,3 @@ def test_a_record_of_very_many_travels_has_few_unknowns():
     t = np.arange(0.0, 4000.0, 2.0)
     d = np.interp(t, 10.0 * np.arange(401), 0.01 * (np.arange(401) // 2 % 2))
     assert 0 < len(timed(t, d, SPEED)) <= MOST
-
-
-def test_times_are_unknowns_by_hand():
-    """4 mm, then 6 mm: a quarter through the travel three quarters of being late is departure's."""
-    track = Samples(np.arange(6.0), np.array([[0, 0, 4, 10, 10, 10]]).T * 1e-3)
-    found = mass_errors(track, (X,))
-    assert found.names == ("departure_x_1", "arrival_x_1")
-    assert [unit_of(name) for name in found.names] == ["s", "s"]
-    assert found.sd == pytest.approx([0.6 * EVEN, 0.4 * EVEN])
-    late = found.response
-    at = [np.interp(1.5, late.t, late.values[:, k]) for k in (0, 1)]
-    assert at == pytest.approx([-4e-3 * 0.75, -4e-3 * 0.25])
-    total = np.trapezoid(late.values, late.t, axis=0)
-    # 10 mm late by 1 s; but for bends of a product of straight lines, straight between knots
-    assert total.sum() == pytest.approx(-0.010, rel=1e-3)
-    assert not np.interp([0.0, 0.2, 4.9], late.t, late.values[:, 0]).any()
-
-
-def test_a_jump_of_a_record_is_one_unknown():
-    """Late as a whole: whatever its duration, its mean time is all that acts."""
-    track = Samples(np.arange(4.0), np.array([[0, 0, 8, 8]]).T * 1e-3)
-    assert mass_errors(track, (X,)).names == ("departure_x_1",)
-    assert mass_errors(track, (X,), least=1.0).names == ()
-
-
-def test_masses_have_times_of_their_own():
-    """Two masses that travel together depart each on its own."""
-    track = Samples(np.arange(4.0), np.array([[0, 0, 8, 8], [0, 0, 5, 5]]).T * 1e-3)
-    assert mass_errors(track, (X, Y)).owner.tolist() == [[0, 0], [1, 1]]

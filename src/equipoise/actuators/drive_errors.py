@@ -16,7 +16,9 @@ rails across begin at the same home and carry the same mass: two more coordinate
 propagator, displaced by these unknowns alone. The inertia of a displacement along both,
 -m (e_u e_v^T + e_v e_u^T), is left out: it is of second order, m d^2 x, 1e-5 of J.
 
-Only masses with a ``doubt`` (``model.testbed.DriveDoubt``) that travel in the record have unknowns.
+Masses with a ``doubt`` (``model.testbed.DriveDoubt``) that travel in the record have all of these.
+One with a ``mass_sd`` that is off home has a gain alone, which is how wrongly it was weighed: three
+such masses contradict each other, and the motion says which.
 
 A travel shorter than the backlash, and a bent rail, are not modelled.
 """
@@ -53,12 +55,17 @@ def drive_names(mass: str) -> DriveNames:
     return DriveNames(f"{GAIN}_{mass}", sides, f"{BACKLASH}_{mass}", f"{PLAY}_{mass}")
 
 
+def is_turned(mass: SlidingMass) -> bool:
+    """Say whether a rail may lie another way than stated."""
+    return mass.doubt is not None and mass.doubt.across > 0
+
+
 def rails_of(masses: Sequence[SlidingMass]) -> tuple[SlidingMass, ...]:
-    """Return the masses, and behind them the rails across those whose drive is in doubt."""
+    """Return the masses, and behind them the rails across those whose rail is in doubt."""
     beside = [
         replace(mass, name=name, axis=axis, doubt=None)
         for mass in masses
-        if mass.doubt is not None
+        if is_turned(mass)
         for name, axis in zip(drive_names(mass.name).across, axes_across(mass.axis), strict=True)
     ]
     return (*masses, *beside)
@@ -83,16 +90,36 @@ def plays(track: Samples, masses: tuple[SlidingMass, ...]) -> dict[int, Play]:
     return found
 
 
+def is_sought(d: Series1, mass: SlidingMass) -> bool:
+    """Say whether the weight of a mass with these displacements is an unknown, and nothing else."""
+    return mass.doubt is None and mass.mass_sd > 0 and bool(np.any(d))
+
+
+def corners(track: Samples, masses: tuple[SlidingMass, ...]) -> list[Series1]:
+    """Return the times between which masses whose weight is unknown move straight."""
+    found: list[Series1] = []
+    for i, mass in enumerate(masses):
+        d = track.values[:, i]
+        if is_sought(d, mass):
+            ways = directions(track.t, d, mass.speed)
+            rows = sorted({0, len(d) - 1, *(k for way in ways for k in way[:2])})
+            found.append(track.t[rows])
+    return found
+
+
 def drive_errors(
     t: Series1, track: Samples, masses: tuple[SlidingMass, ...], taken_up: dict[int, Play]
 ) -> list[MassError]:
-    """Return the unknowns of drives in doubt that travel, with their effect at times ``t``."""
-    doubted = [i for i, mass in enumerate(masses) if mass.doubt is not None]
+    """Return the unknowns of drives, with their effect at times ``t``."""
+    turned = [i for i, mass in enumerate(masses) if is_turned(mass)]
     found: list[MassError] = []
-    for i, play in taken_up.items():
-        side = len(masses) + SIDES * doubted.index(i)
+    for i, mass in enumerate(masses):
         d = np.interp(t, track.t, track.values[:, i])
-        found += of_one(t, d, (i, side), masses[i], play)
+        if is_sought(track.values[:, i], mass):
+            found.append(MassError(drive_names(mass.name).gain, mass.mass_sd, [(i, d)]))
+        elif i in taken_up:
+            side = len(masses) + SIDES * turned.index(i) if i in turned else i
+            found += of_one(t, d, (i, side), mass, taken_up[i])
     return found
 
 

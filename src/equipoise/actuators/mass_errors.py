@@ -3,7 +3,7 @@
     d_i(t) = d_i,log(t) + sum_j a_ij(t) x_j
 
 One unknown x_j may act on one mass (where it stopped: ``stops``; when it travelled between rows:
-``travel_times``), on several (how late they follow their commands: ``lags``), or along rails of its
+``travel_errors``), on several (how late they follow their commands: ``lags``), or along rails of its
 own (``drive_errors``). d_i is a displacement along one of the ``rails``: the masses' own, and those
 across drives in doubt.
 """
@@ -17,14 +17,15 @@ from equipoise.actuators.drive_errors import (
     BACKLASH,
     GAIN,
     PLAY,
+    corners,
     drive_errors,
     plays,
     rails_of,
 )
 from equipoise.actuators.lags import LAG, command_columns, kinds_of, lag_errors, lag_times, sags
 from equipoise.actuators.lost_motion import command_times
-from equipoise.actuators.stops import stop_errors
-from equipoise.actuators.travel_times import ARRIVAL, DEPARTURE, bends, open_travels, travel_errors
+from equipoise.actuators.stops import MassError, stop_errors
+from equipoise.actuators.travel_errors import ARRIVAL, DEPARTURE, SPREAD, open_times
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -45,7 +46,7 @@ def unit_of(name: str) -> str:
     """Return the SI unit of an unknown: of a time, a gain, a rail across; else a displacement's."""
     if name.startswith(LAG):
         return "s"
-    units = {GAIN: "1", ACROSS: "rad", DEPARTURE: "s", ARRIVAL: "s"}
+    units = {GAIN: "1", ACROSS: "rad", DEPARTURE: "s", ARRIVAL: "s", SPREAD: "s"}
     return units.get(name.split("_")[0], "m")
 
 
@@ -68,13 +69,13 @@ def mass_errors(
     kinds = kinds_of(commands, masses)
     late = lag_times(track, [sd for sd, kind in kinds.items() if kind])
     taken_up = plays(track, masses)
-    travels = [open_travels(track, i, mass, least) for i, mass in enumerate(masses)]
-    bent = [t for found in travels for t in bends(track, found)]
-    t = np.unique(np.concatenate([late, *bent, *(play.t for play in taken_up.values())]))
+    times = [(i, o) for i, mass in enumerate(masses) for o in open_times(track, i, mass, least)]
+    bent = [each.corners for _, each in times]
+    bent += [*corners(track, masses), *(play.t for play in taken_up.values())]
+    t = np.unique(np.concatenate([late, *bent]))
     gone = [command_times(taken_up.get(i), t) for i in range(len(masses))]
     found = [*stop_errors(gone, track, masses), *lag_errors(t, track, kinds)]
-    for i, (mass, each) in enumerate(zip(masses, travels, strict=True)):
-        found += travel_errors(t, track, i, mass.name, each)
+    found += [MassError(each.name, each.sd, [(i, each.at(t))]) for i, each in times]
     found += drive_errors(t, track, masses, taken_up)
     columns: list[Series1] = [column for each in found for _, column in each.response]
     pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.response]

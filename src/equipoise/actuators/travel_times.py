@@ -1,14 +1,10 @@
-"""When a mass departed and arrived between the rows of its track, as two unknowns of each travel.
+"""When a mass departed and arrived between the rows of its track: what these leave open.
 
 A track is straight between rows; the mass was not. It departed somewhere between two rows, and
-arrived somewhere between two others: late by tau_1 and tau_2,
-
-    d(t) = d_log(t - tau),   tau = (1 - s) tau_1 + s tau_2,   s: 0 to 1 from departure to arrival
-    d(t) = d_log(t) - [(1 - s) tau_1 + s tau_2] d_log'(t) + ...
-
-How late is open within the slack of the first and the last step of a travel, dt - |dd| / v: of an
-interval dt in which the mass went dd it travelled for |dd| / v, v being its speed. A start anywhere
-in the slack moves the mean time of the step evenly within half of it to either side,
+arrived somewhere between two others. How late is open within the slack of the first and the last
+step of a travel, dt - |dd| / v: of an interval dt in which the mass went dd it travelled for
+|dd| / v, v being its speed. A start anywhere in the slack moves the mean time of the step evenly
+within half of it to either side,
 
     sd = slack / sqrt(12)
 
@@ -30,13 +26,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.actuators.lags import is_command, slowness
-from equipoise.actuators.stops import MassError, is_travelling, travels
+from equipoise.actuators.lags import is_command
+from equipoise.actuators.stops import is_travelling, travels
 from equipoise.model.arrays import Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
-DEPARTURE, ARRIVAL = "departure", "arrival"
 PAUSE = 1.0  # s, chosen: far below the periods of a platform
 MOST = 12  # travels of one mass, chosen: each costs two columns of the propagator
 FASTER = 1.1  # times the stated speed, chosen: beyond it that says nothing of a travel
@@ -51,11 +46,17 @@ class TimedTravel(NamedTuple):
     arrival_sd: float  # s
     path: float  # m
     slack: Series1  # s, of each of its steps
+    is_late: bool  # it may arrive behind its last row
 
     @property
     def is_one_step(self) -> bool:
         """Say whether it lies between two neighbouring rows."""
         return self.last == self.first + 1
+
+    @property
+    def is_stepwise(self) -> bool:
+        """Say whether steps between its first and its last are open, too: a stepper's."""
+        return bool(np.any(self.slack[1:-1] > 0))
 
 
 def merged_travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:
@@ -94,7 +95,7 @@ def one_timed(
     sd = slack / np.sqrt(12)
     arrival_sd = float(np.hypot(sd[-1], later))
     last, path = first + len(steps), float(ways.sum())
-    return TimedTravel(first, last, float(sd[0]), arrival_sd, path, slack)
+    return TimedTravel(first, last, float(sd[0]), arrival_sd, path, slack, later > 0)
 
 
 def unresolved_steps(track: Samples, masses: Sequence[SlidingMass]) -> NDArray[np.bool_]:
@@ -104,53 +105,3 @@ def unresolved_steps(track: Samples, masses: Sequence[SlidingMass]) -> NDArray[n
         for travel in timed(track.t, track.values[:, i], mass.speed):
             found[travel.first : travel.last, i] |= travel.slack > 0
     return found
-
-
-def open_travels(track: Samples, i: int, mass: SlidingMass, least: float) -> dict[int, TimedTravel]:
-    """Return by number the travels of one mass whose times are open by so much that it shows."""
-    found = timed(track.t, track.values[:, i], mass.speed)
-    return {
-        k + 1: travel
-        for k, travel in enumerate(found)
-        if mass.mass * travel.path * max(travel.departure_sd, travel.arrival_sd) > least
-    }
-
-
-def reach(sd: float) -> float:
-    """Return how late a time is at most, s, that is evenly spread with an sd."""
-    return float(np.sqrt(3)) * sd
-
-
-def bends(track: Samples, found: dict[int, TimedTravel]) -> list[Series1]:
-    """Return the times at which the effects of open times bend."""
-    return [
-        track.t[travel.first : travel.last + 1] + sign * reach(sd)
-        for travel in found.values()
-        for sd in (travel.departure_sd, travel.arrival_sd)
-        for sign in (-1, 1)
-        if sd > 0
-    ]
-
-
-def effect(t: Series1, track: Samples, i: int, travel: TimedTravel, sd: float) -> Series1:
-    """Return minus the speed of mass i in a travel, over ``reach`` to either side, m/s."""
-    rows = slice(travel.first, travel.last + 1)
-    return slowness(t, Samples(track.t[rows], track.values[rows]), i, reach(sd))
-
-
-def travel_errors(
-    t: Series1, track: Samples, i: int, name: str, found: dict[int, TimedTravel]
-) -> list[MassError]:
-    """Return the unknown times of the travels of mass i, with their effect at times ``t``."""
-    errors: list[MassError] = []
-    for k, travel in found.items():
-        share = np.interp(t, track.t[[travel.first, travel.last]], [0.0, 1.0])
-        ends = [(DEPARTURE, travel.departure_sd, 1 - share), (ARRIVAL, travel.arrival_sd, share)]
-        if travel.is_one_step:
-            ends = [(DEPARTURE, max(travel.departure_sd, travel.arrival_sd), np.ones_like(t))]
-        errors += [
-            MassError(f"{end}_{name}_{k}", sd, [(i, effect(t, track, i, travel, sd) * weight)])
-            for end, sd, weight in ends
-            if sd > 0
-        ]
-    return errors

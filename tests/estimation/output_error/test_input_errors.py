@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.stored_momentum import with_known_inputs
-from equipoise.estimation.output_error.fit_estimate import conclude, end_rows, reported_shifts
+from equipoise.estimation.output_error.fit_estimate import (
+    conclude,
+    end_rows,
+    prior_shifts,
+    visibility_of,
+)
 from equipoise.estimation.output_error.input_errors import STEP, devices_varied, input_shifts
 from equipoise.estimation.output_error.trajectory import METHOD, Params, fit
 from equipoise.estimation.parameters.fit_parameters import JP, R
@@ -28,6 +33,12 @@ def fitted(testbed):
     return record, fit(record, testbed, Params())
 
 
+def weighed(testbed):
+    """Return a testbed whose sliders were weighed to 2 %."""
+    masses = tuple(replace(mass, mass_sd=SD) for mass in testbed.masses)
+    return replace(testbed, masses=masses)
+
+
 def shifts(testbed):
     """Return the shifts of J and com by input, (9,) each, relative to the values, and the fit."""
     record, found = fitted(testbed)
@@ -45,11 +56,33 @@ def test_a_platform_heavier_than_stated_has_its_com_nearer_by_hand():
 
 
 def test_sliders_heavier_than_stated_make_everything_larger_by_hand():
-    """All three, heavier by one sd, scale J and com by it."""
-    bed = platform()
-    moved, *_ = shifts(replace(bed, masses=tuple(replace(m, mass_sd=SD) for m in bed.masses)))
-    assert set(moved) == {f"mass {mass.name}" for mass in bed.masses}
-    np.testing.assert_allclose(sum(moved.values())[[0, 1, 2, 6, 8]], SD, rtol=0.05)
+    """All three, heavier by one sd, scale J and com by it; they are sought, and none is carried."""
+    bed, values = platform(), np.concatenate([INERTIA, COM])
+    _, found = fitted(weighed(bed))
+    names, moved = prior_shifts(found, np.eye(found.problem.layout.size), visibility_of(found))
+    assert set(names) == {f"mass {mass.name}" for mass in bed.masses}
+    assert not input_shifts(found)
+    body = moved.sum(axis=0)
+    relative = np.append(body[JP], body[R]) / values
+    np.testing.assert_allclose(relative[[0, 1, 2, 6, 8]], SD, rtol=0.05)
+
+
+def test_sliders_that_contradict_each_other_are_weighed_by_the_motion():
+    """One is 5 % heavier than stated, with 2 % known: its weight over the others' is found."""
+    bed = weighed(platform())
+    first, *rest = bed.masses
+    record, found = fitted(replace(bed, masses=(replace(first, mass=first.mass / 1.05), *rest)))
+    gains = conclude(found, METHOD, record).values([f"gain_{mass.name}" for mass in bed.masses])
+    assert gains[0] - gains[1:].mean() == pytest.approx(0.05, rel=0.2)
+
+
+def test_a_slider_that_stands_at_home_has_no_weight_to_seek():
+    """And one that stands off home, all the record long, has."""
+    bed = weighed(platform())
+    for d, sought in ((0.0, False), (0.01, True)):
+        record = replace(recording(60.0), masses=Samples(np.array([0.0, 60.0]), np.full((2, 3), d)))
+        layout = fit(record, bed, Params()).problem.layout
+        assert ("gain_x" in layout.errors) == sought
 
 
 def test_a_fast_clock_scales_time_by_hand():
@@ -81,8 +114,8 @@ def test_a_wheel_turns_its_momentum_with_its_mounting_and_scales_it_with_its_gai
     bed = replace(platform(), wheels=(wheel,))
     record = with_known_inputs(with_wheel(recording(120.0, AFTER), 100.0), bed)
     found = {}
-    assert [varied.axis for varied in devices_varied(record, bed)] == ["", "x", "y", "z"]
-    for varied in devices_varied(record, bed):
+    assert [varied.axis for varied in devices_varied(record, bed, STEP)] == ["", "x", "y", "z"]
+    for varied in devices_varied(record, bed, STEP):
         off = (varied.recording.momentum.values - record.momentum.values)[-1] / STEP
         found.setdefault(varied.name, []).append(off)
     np.testing.assert_allclose(found["gain of z"], [[0.0, 0.0, 0.1 * SD]], atol=1e-12)
@@ -105,11 +138,9 @@ def test_an_input_that_gives_most_of_a_variance_is_named():
 
 def test_com_at_the_end_takes_both_ways_of_an_input():
     """All masses heavier by s: com is larger by s, and so is what they add to it as they stand."""
-    bed = platform()
-    masses = tuple(replace(mass, mass_sd=SD) for mass in bed.masses)
-    _, found = fitted(replace(bed, masses=masses))
+    _, found = fitted(weighed(platform()))
     end, rows = end_rows(found, None)
-    names, moved = reported_shifts(found, rows, None)
+    names, moved = prior_shifts(found, rows, visibility_of(found))
     assert len(names) == 3
     np.testing.assert_allclose(moved.sum(axis=0)[[0, 2]], SD * end[[0, 2]], rtol=0.05)
 

@@ -98,6 +98,6 @@ def unit_for(name: str, si: str) -> Unit:
     """Return the unit in which to show a parameter; where masses stop in mm, when in ms."""
     if si == "m" and name.startswith(("error_", "backlash_", "play_", "scatter_")):
         return TRAVEL
-    if si == "s" and name.startswith(("mass_lag", "departure_", "arrival_")):
+    if si == "s" and name.startswith(("mass_lag", "departure_", "arrival_", "spread_")):
         return LATE
     return SHOWN.get(si, Unit(si, 1.0))

@@ -42,6 +42,7 @@ from equipoise.estimation.events.process_noise_spectrum import coloured
 from equipoise.estimation.events.record_model import (
     Happening,
     RecordModel,
+    farther,
     improbability,
     refitted,
     smoothed,
@@ -92,13 +93,18 @@ def cut_times(recording: Recording) -> Series1:
 
 
 def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> RecordModel | None:
-    """Return the model with the event that surprises most, if it is beyond the threshold."""
+    """Return the model with the event that surprises most, if it is beyond the threshold.
+
+    And if the fit with it is nearer to the record by as much: a test at one cut may promise what
+    the event, once all is fitted, does not keep.
+    """
     kind, values = max(surprise.items(), key=lambda item: float(np.max(item[1])))
     k = int(np.argmax(values))
     if values[k] < threshold(model.spacing):
         return None
     event = Happening(fit.problem.jumps[k].t, kind)
-    return of_either_kind(replace(model, events=(*model.events, event)), len(model.events))
+    found = of_either_kind(replace(model, events=(*model.events, event)), len(model.events))
+    return found if farther(model, found) > threshold(model.spacing) else None
 
 
 def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:

@@ -10,7 +10,11 @@ from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.method_contract import origin_of
-from equipoise.estimation.output_error.input_errors import STEP, input_shifts
+from equipoise.estimation.output_error.input_errors import (
+    STEP,
+    input_shifts,
+    sought_weights,
+)
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.servo_sag_covariance import by_sag
 from equipoise.estimation.output_error.solution import Fitted, freedom, smooth_at
@@ -162,6 +166,8 @@ def parameters_of(
     covariance = factor**2 * (rows @ view.covariance @ rows.T + fresh[: len(rows), : len(rows)])
     inputs, shifts = reported_shifts(fitted, rows, after)
     covariance += shifts.T @ shifts
+    weights, by_prior = prior_shifts(fitted, rows, view)
+    inputs, shifts = [*inputs, *weights], np.vstack([shifts, by_prior])
     hidden = np.any(np.abs(rows[:, view.hidden]) > 0, axis=1)
     sd = np.where(hidden, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
     found = [
@@ -200,6 +206,17 @@ def reported_shifts(
         names.append(name)
         found.append(moved)
     return names, np.array(found).reshape(-1, len(rows))
+
+
+def prior_shifts(fitted: Fitted, rows: Floats, view: Visibility) -> tuple[list[str], Floats]:
+    """Return inputs that are sought, and how a prior of each off by one sd moves what is reported.
+
+    The covariance has it already: A^-1 (1 / s) of a normal matrix A that has 1 / s^2 of the prior.
+    """
+    sought, weight = sought_weights(fitted.problem), fitted.problem.prior.weight
+    columns = list(sought.values())
+    moved = (rows @ view.covariance[:, columns]) * np.sqrt(weight[columns])
+    return list(sought), moved.T.reshape(-1, len(rows))
 
 
 def without_scale(view: Visibility, layout: Layout) -> Visibility:

@@ -1,14 +1,17 @@
 """What inputs that were stated or reported, not measured in the record, add to the covariance.
 
-A platform's mass, masses of sliders, momenta and mountings of wheels and gyros, gravity, clocks:
-each is off by some sd. One that gives the scale, alone, shows in no residual, so it is not sought
-but carried (a "considered" parameter; Schmidt 1966). With A the information of the fit and b the
+A platform's mass, momenta and mountings of wheels and gyros, gravity, clocks: each is off by some
+sd. One that gives the scale, alone, shows in no residual, so it is not sought but carried (a "considered" parameter; Schmidt 1966). With A the information of the fit and b the
 descent of its cost, an input p off by one sd s moves the optimum by
 
     dx = A^-1 db/dp s,         covariance + sum over inputs of dx dx^T
 
-db/dp is the difference quotient of b at the optimum. What follows from the estimate and the input
+db/dp is the difference quotient of b at the optimum, to either side: what is known far worse than
+all else, such as a scale, turns the curvature of b into a shift. What follows from the estimate and the input
 together (the centre of mass at the end, masses where they stand) takes both ways.
+
+Masses that travel on rails are sought instead, each with its sd as prior (``drive_errors``): three
+of them contradict each other. One that stands still off home is carried.
 
 Each device turns its own part h of the known momentum, or torque:
 
@@ -17,8 +20,8 @@ Each device turns its own part h of the known momentum, or torque:
 A clock that is slow stretches time from the beginning of the record: that of the camera, or of a
 gyro alone, all channels; that of a gyro beside a camera its own rows.
 
-Cannot see errors of inputs within the record, such as a wheel's friction; nor that two inputs
-contradict each other, which would tell more of either: intervals are then too wide.
+Cannot see errors of inputs within the record, such as a wheel's friction; nor that two inputs that
+are carried contradict each other, which would tell more of either: intervals are then too wide.
 """
 
 from collections.abc import Iterator
@@ -27,6 +30,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.drive_errors import drive_names
 from equipoise.actuators.stored_momentum import known_torque, stored_momentum
 from equipoise.estimation.output_error.problem import Problem, reposed
 from equipoise.estimation.output_error.solution import Fitted, evaluate
@@ -35,14 +39,14 @@ from equipoise.maths.linalg import inverse_where
 from equipoise.model.arrays import Floats, Matrix3
 from equipoise.model.devices import Device
 from equipoise.model.recording import Recording, Samples
-from equipoise.model.testbed import Testbed
+from equipoise.model.testbed import SlidingMass, Testbed
 
-STEP = 0.01  # sd, chosen: so small that the quotient is a derivative, far above rounding
+STEP = 1e-3  # sd, chosen: so small that the quotient is a derivative, far above rounding
 AXES = np.eye(3)
 
 
 class Varied(NamedTuple):
-    """What is given when one input is off by ``STEP`` of its sd."""
+    """What is given when one input is off by a part of its sd."""
 
     name: str
     sd: float
@@ -81,34 +85,45 @@ def stretched(channel: Samples | None, start: float, share: float) -> Samples | 
     )
 
 
-def platform_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+def weight_of(mass: SlidingMass) -> str:
+    """Return the name of a mass on a rail as an input."""
+    return f"mass {mass.name}"
+
+
+def sought_weights(problem: Problem) -> dict[str, int]:
+    """Return the inputs that are unknowns of the fit, each with its coordinate in the layout."""
+    names = [(weight_of(mass), drive_names(mass.name).gain) for mass in problem.testbed.masses]
+    errors, first = problem.layout.errors, problem.layout.mass_errors.start
+    return {name: first + errors.index(gain) for name, gain in names if gain in errors}
+
+
+def platform_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
     """Yield mass, gravity, masses on rails, and momentum and torque that no device explains."""
     body, masses = testbed.body, testbed.masses
-    heavier = replace(body, mass=body.mass * (1 + STEP * testbed.mass_sd))
+    heavier = replace(body, mass=body.mass * (1 + part * testbed.mass_sd))
     yield Varied("platform mass", testbed.mass_sd, recording, replace(testbed, body=heavier))
-    stronger = testbed.gravity * (1 + STEP * testbed.gravity_sd)
+    stronger = testbed.gravity * (1 + part * testbed.gravity_sd)
     yield Varied("gravity", testbed.gravity_sd, recording, replace(testbed, gravity=stronger))
     for i, mass in enumerate(masses):
-        if mass.doubt is None:  # else what a calibration seeks
-            other = replace(mass, mass=mass.mass * (1 + STEP * mass.mass_sd))
-            rest = replace(testbed, masses=(*masses[:i], other, *masses[i + 1 :]))
-            yield Varied(f"mass {mass.name}", mass.mass_sd, recording, rest)
+        other = replace(mass, mass=mass.mass * (1 + part * mass.mass_sd))
+        rest = replace(testbed, masses=(*masses[:i], other, *masses[i + 1 :]))
+        yield Varied(weight_of(mass), mass.mass_sd, recording, rest)
     if recording.devices is None:
         sd = testbed.momentum_sd
-        more = scaled(recording.momentum, STEP * sd)
+        more = scaled(recording.momentum, part * sd)
         yield Varied("momentum", sd, replace(recording, momentum=more), testbed)
         sd = testbed.torque_sd
-        more = scaled(recording.torque, STEP * sd)
+        more = scaled(recording.torque, part * sd)
         yield Varied("torque", sd, replace(recording, torque=more), testbed)
 
 
-def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+def clocks_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
     """Yield the record's clock, and that of a gyro beside a camera."""
     start, _ = recording.span
     camera, gyro = recording.attitude, recording.rate
     first = testbed.gyro if camera is None else testbed.attitude
     if first is not None:
-        share = STEP * first.clock_sd
+        share = part * first.clock_sd
         yield Varied("clock", first.clock_sd, replace(
             recording,
             attitude=stretched(camera, start, share),
@@ -119,7 +134,7 @@ def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
         ), testbed)  # fmt: skip
     if camera is not None and testbed.gyro is not None:
         gyro_clock = testbed.gyro.clock_sd
-        late = stretched(gyro, start, STEP * gyro_clock)
+        late = stretched(gyro, start, part * gyro_clock)
         yield Varied("gyro clock", gyro_clock, replace(recording, rate=late), testbed)
 
 
@@ -141,7 +156,7 @@ def turned_by(part: Samples | None, whole: Samples | None, matrix: Matrix3) -> S
     return replace(whole, values=whole.values + part.values @ matrix.T)
 
 
-def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+def devices_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
     """Yield gain and mounting of each device, by its part of the known momentum and torque."""
     if recording.devices is None:
         return
@@ -152,17 +167,26 @@ def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
         changes = [("gain", device.gain_sd, "", AXES)]
         changes += [("mounting", device.mounting_sd, axis, turn) for axis, turn in turned]
         for what, sd, axis, matrix in changes:
-            momentum = turned_by(h, recording.momentum, STEP * sd * matrix)
-            torque = turned_by(tau, recording.torque, STEP * sd * matrix)
+            momentum = turned_by(h, recording.momentum, part * sd * matrix)
+            torque = turned_by(tau, recording.torque, part * sd * matrix)
             driven = replace(recording, momentum=momentum, torque=torque)
             yield Varied(f"{what} of {device.name}", sd, driven, testbed, axis)
 
 
-def variations(problem: Problem) -> Iterator[Varied]:
-    """Yield every input that has an sd."""
-    recording, testbed = problem.recording, problem.testbed
-    for part in (platform_varied, clocks_varied, devices_varied):
-        yield from (varied for varied in part(recording, testbed) if varied.sd > 0)
+def variations(problem: Problem, part: float) -> Iterator[Varied]:
+    """Yield every input that has an sd and is not sought, off by a part of that."""
+    recording, testbed, sought = problem.recording, problem.testbed, sought_weights(problem)
+    for inputs in (platform_varied, clocks_varied, devices_varied):
+        for varied in inputs(recording, testbed, part):
+            if varied.sd > 0 and varied.name not in sought:
+                yield varied
+
+
+def descent_with(fitted: Fitted, varied: Varied) -> tuple[Floats, Fitted]:
+    """Return b where a fit stands, an input being off, and the fit then."""
+    other = reposed(fitted.problem, varied.recording, varied.testbed)
+    descent = evaluate(other, fitted.point, fitted.jumps).descent
+    return descent, replace(fitted, problem=other)
 
 
 def input_effects(fitted: Fitted) -> list[InputEffect]:
@@ -170,12 +194,10 @@ def input_effects(fitted: Fitted) -> list[InputEffect]:
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
     found: list[InputEffect] = []
-    for varied in variations(problem):
-        other = reposed(problem, varied.recording, varied.testbed)
-        descent = evaluate(other, fitted.point, fitted.jumps).descent - fitted.at.descent
-        direct = physical(fitted.point, other.mass, layout) - values
-        at = replace(fitted, problem=other)
-        found.append(InputEffect(varied.name, varied.axis, descent / STEP, direct / STEP, at))
+    for more, less in zip(variations(problem, STEP), variations(problem, -STEP), strict=True):
+        (above, at), (below, _) = descent_with(fitted, more), descent_with(fitted, less)
+        direct = (physical(fitted.point, at.problem.mass, layout) - values) / STEP
+        found.append(InputEffect(more.name, more.axis, (above - below) / (2 * STEP), direct, at))
     return found
 
 

@@ -8,7 +8,7 @@ A command does not show s, and the motion hardly does: it is not sought but carr
 "considered" parameter; Schmidt 1966). With A the information of the fit and b the descent of its
 cost, masses that hang by one sd move the optimum by
 
-    dx = A^-1 (b(s) - b(0)),        covariance + dx dx^T
+    dx = A^-1 db/ds s,        covariance + dx dx^T
 
 Of the first moment m s u (u.n), the part parallel to gravity makes no torque; it is all there is
 for equal masses on three orthogonal rails, and what others make is elastic sag, a torque that is
@@ -30,13 +30,15 @@ import numpy as np
 from equipoise.actuators.lags import LAG
 from equipoise.actuators.sliding_masses import MassMaps
 from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.estimation.output_error.input_errors import STEP
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted, evaluate
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Series1, Series3, Square, Vector3
 from equipoise.model.torque_terms import GROUPS, TERMS
 
-VISCOUS = [TERMS.index(term) for term in GROUPS["viscous"]]
+VISCOUS = GROUPS["viscous"]
+INDEX = [TERMS.index(term) for term in VISCOUS]
 
 
 def downward(fitted: Fitted) -> Series3:
@@ -86,18 +88,37 @@ def damping(problem: Problem, n: Vector3, sag: Floats, late: Floats) -> Vector3:
     return problem.gravity * (size * sag * late) @ across**2
 
 
+def descent_by_damping(fitted: Fitted, more: Vector3) -> tuple[Floats, Vector3]:
+    """Return what ``more`` damping changes of b, and the part of it that no unknown takes up.
+
+    Damping that is sought moves by -``more`` itself, so b by its columns of A. A difference of b
+    would not do: damping may be known far worse than it is beside all else.
+    """
+    layout, prior = fitted.problem.layout, fitted.problem.prior
+    columns = [layout.torques.start + k for k, t in enumerate(layout.terms) if t in VISCOUS]
+    sought = np.array([term in layout.terms for term in VISCOUS])
+    observed = fitted.at.normal - np.diag(np.where(prior.held, 0.0, prior.weight))
+    return -observed[:, columns] @ more[sought], np.where(sought, 0.0, more)
+
+
 def descent_by_sag(fitted: Fitted, covariance: Square) -> Floats | None:
-    """Return b(s) - b(0) of one sd of sag; None where no mass sags."""
+    """Return db/ds of one sd of sag; None where no mass sags."""
     problem, sag = fitted.problem, fitted.problem.errors.sag
     if not np.any(sag):
         return None
     n, moment = downward(fitted), problem.maps.first_moment
     axes = moment / np.linalg.norm(moment, axis=1, keepdims=True)
-    torque = fitted.point.torque.copy()
-    torque[VISCOUS] += damping(problem, n.mean(axis=0), sag, lateness(fitted, covariance))
-    hung = without_moment(problem, n @ axes.T * sag)
-    there = evaluate(hung, replace(fitted.point, torque=torque), fitted.jumps)
-    return there.descent - fitted.at.descent
+    more = damping(problem, n.mean(axis=0), sag, lateness(fitted, covariance))
+    taken_up, rest = descent_by_damping(fitted, more)
+    hanging = n @ axes.T * sag
+
+    def descent(part: float) -> Floats:
+        torque = fitted.point.torque.copy()
+        torque[INDEX] += part * rest
+        point = replace(fitted.point, torque=torque)
+        return evaluate(without_moment(problem, part * hanging), point, fitted.jumps).descent
+
+    return taken_up + (descent(STEP) - descent(-STEP)) / (2 * STEP)
 
 
 def by_sag(fitted: Fitted, covariance: Square) -> Square:
