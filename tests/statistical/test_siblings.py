@@ -4,7 +4,9 @@ import pytest
 
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
-from equipoise.model.estimate import Parameter
+from equipoise.model.estimate import COM, Parameter
+from equipoise.model.reasons.data_reasons import Unobservable
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle.corpus import corpus_record
 from tests.support import thorough
 from tests.support.limited_work import broken, dead, endless
@@ -35,6 +37,26 @@ def test_no_number_is_wrong_and_halves_agree(seed) -> None:
     assert runs[0].conclusion.usable
     assert not any(run.wrong for run in runs)
     assert siblings.sibling_row("halves", [runs[1:]]).ok
+
+
+@pytest.mark.parametrize("seed", [8, 69])
+def test_records_that_were_wrong_are_within_their_intervals(seed) -> None:
+    """Masses between rows 1 s apart (J was 5.7 sd off); masses that contradict each other (29)."""
+    record = corpus_record(seed)
+    conclusion = reference(record.recording, record.testbed)
+    z = errors(conclusion, record)
+    assert {"com_z", "inertia_P_xx", "inertia_P_zz"} <= set(z)
+    assert max(map(abs, z.values())) < 4.0
+
+
+@pytest.mark.parametrize("seed", [94, 120])
+def test_com_is_open_where_a_gyro_alone_does_not_show_the_tilt(seed) -> None:
+    """com_z was 5.7 and 45 sd off, at a tilt of 50 and 62 deg; true were 8 and 3."""
+    record = corpus_record(seed)
+    *_, last = identify(record.recording, record.testbed, IdentifyOptions("trajectory"))
+    assert Unobservable.TILT in {reason.code for reason in last.estimate.unobservable}
+    found = last.estimate
+    assert not any(found.parameters[found.index(name)].observable for name in COM)
 
 
 def test_the_bound_at_the_truth_shows_inertia_where_masses_move_alone() -> None:

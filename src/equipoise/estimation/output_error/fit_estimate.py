@@ -38,12 +38,13 @@ from equipoise.estimation.parameters.observability import (
     scale_of,
 )
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
-from equipoise.maths.attitude import logarithm
+from equipoise.maths.attitude import logarithm, to_matrix
 from equipoise.maths.linalg import inverse_where, lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import BODY, COM, END, Estimate, Parameter, Residual
 from equipoise.model.outcome import Outcome, OutcomeCode, outcome
+from equipoise.model.reasons.data_reasons import Unobservable
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
@@ -52,6 +53,7 @@ SURE = 4.0  # sd of a statistic before it counts as more than chance
 MOSTLY = 0.5  # of a variance, chosen: an input that gives more limits it
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
 LOST = np.deg2rad(3.0)  # rms an axis, chosen: no torque on a bearing puts a followed motion off so
+TILTED = 0.25  # rad, chosen: com x n is no straight line over more
 BESIDE = 10.0  # times the noise, chosen: a camera so coarse may leave more
 UNSETTLED = outcome(Why.NOT_CONVERGED)
 
@@ -226,6 +228,28 @@ def without_scale(view: Visibility, layout: Layout) -> Visibility:
     return Visibility(view.covariance, hidden, (OPEN, *view.unobservable), True, view.unseen)
 
 
+def tilt_sd(fitted: Fitted, view: Visibility) -> float:
+    """Return how uncertain gravity's direction in the body is at the start, rad, its worst part."""
+    n = to_matrix(fitted.point.q0)[2]
+    across = np.eye(3) - np.outer(n, n)
+    spread = view.covariance[TURN, TURN] + view.unseen[TURN] @ view.unseen[TURN].T
+    return float(np.sqrt(np.linalg.eigvalsh(across @ spread @ across)[-1]))
+
+
+def without_com(view: Visibility, size: Floats) -> Visibility:
+    """Return the view of a fit that does not know the tilt.
+
+    Torque is m g com x n. Where n may be anything, com is so, too, though a line through the one
+    tilt at which the search ended seems to tell it.
+    """
+    hidden, directions = view.hidden.copy(), np.diag(size)[:, R]
+    hidden[R] = True
+    reasons = (*view.unobservable, Reason(Unobservable.TILT))
+    return replace(
+        view, hidden=hidden, unobservable=reasons, unseen=np.hstack([view.unseen, directions])
+    )
+
+
 def without_anchor(normal: Square, fitted: Fitted) -> Square:
     """Return information without the prior that only keeps a search from wandering."""
     prior = fitted.problem.prior
@@ -242,6 +266,8 @@ def visibility_of(fitted: Fitted) -> Visibility:
         information, scale_of(values, size), size, layout.names, problem.prior.held
     )
     view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
+    if tilt_sd(fitted, view) > TILTED:
+        view = without_com(view, size)
     return without_scale(view, layout) if problem.scale_open else view
 
 

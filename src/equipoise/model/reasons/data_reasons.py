@@ -18,6 +18,11 @@ class Unobservable(Code):
     )
     PARAMETER = "parameter", "the data do not show {0}"
     COMBINATION = "combination", "the data cannot separate: {names}"
+    TILT = (
+        "tilt",
+        "the data do not show where gravity points, so nor the centre of mass; an attitude sensor "
+        "does, or a longer record of larger swings",
+    )
     DISTANCE = (
         "distance",
         "the data do not show the distance of the centre of mass from the centre of rotation",
