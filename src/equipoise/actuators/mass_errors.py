@@ -3,9 +3,9 @@
     d_i(t) = d_i,log(t) + sum_j a_ij(t) x_j
 
 One unknown x_j may act on one mass (where it stopped: ``stops``; when it travelled between rows:
-``travel_errors``), on several (how late they follow their commands: ``lags``), or along rails of its
-own (``drive_errors``). d_i is a displacement along one of the ``rails``: the masses' own, and those
-across drives in doubt.
+``travel_errors``; its weight: ``drive_errors``), on several (how late they follow their commands:
+``lags``), or along rails of its own (``drive_errors``). d_i is a displacement along one of the
+``rails``: the masses' own, and those across drives in doubt.
 """
 
 from dataclasses import dataclass

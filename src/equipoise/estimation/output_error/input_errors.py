@@ -1,14 +1,15 @@
 """What inputs that were stated or reported, not measured in the record, add to the covariance.
 
 A platform's mass, momenta and mountings of wheels and gyros, gravity, clocks: each is off by some
-sd. One that gives the scale, alone, shows in no residual, so it is not sought but carried (a "considered" parameter; Schmidt 1966). With A the information of the fit and b the
-descent of its cost, an input p off by one sd s moves the optimum by
+sd. One that gives the scale, alone, shows in no residual, so it is not sought but carried (a
+"considered" parameter; Schmidt 1966). With A the information of the fit and b the descent of its
+cost, an input p off by one sd s moves the optimum by
 
     dx = A^-1 db/dp s,         covariance + sum over inputs of dx dx^T
 
 db/dp is the difference quotient of b at the optimum, to either side: what is known far worse than
-all else, such as a scale, turns the curvature of b into a shift. What follows from the estimate and the input
-together (the centre of mass at the end, masses where they stand) takes both ways.
+all else, such as a scale, turns the curvature of b into a shift. What follows from the estimate and
+the input together (the centre of mass at the end, masses where they stand) takes both ways.
 
 Masses that travel on rails are sought instead, each with its sd as prior (``drive_errors``): three
 of them contradict each other. One that stands still off home is carried.
