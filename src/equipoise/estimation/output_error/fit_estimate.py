@@ -54,6 +54,7 @@ MOSTLY = 0.5  # of a variance, chosen: an input that gives more limits it
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
 LOST = np.deg2rad(3.0)  # rms an axis, chosen: no torque on a bearing puts a followed motion off so
 TILTED = 0.25  # rad, chosen: com x n is no straight line over more
+SHARE = 0.2  # of the tilt, chosen: its inverse is straight within a fifth, to 4 % of com
 BESIDE = 10.0  # times the noise, chosen: a camera so coarse may leave more
 UNSETTLED = outcome(Why.NOT_CONVERGED)
 
@@ -236,6 +237,17 @@ def tilt_sd(fitted: Fitted, view: Visibility) -> float:
     return float(np.sqrt(np.linalg.eigvalsh(across @ spread @ across)[-1]))
 
 
+def is_tilt_open(fitted: Fitted, view: Visibility) -> bool:
+    """Say whether the tilt is so uncertain that com and tilt show as a product only.
+
+    A camera sees the tilt apart from com; a gyro sees com times the tilt, and the hyperbola on
+    which both lie is straight over a small part of either.
+    """
+    problem, sd = fitted.problem, tilt_sd(fitted, view)
+    tilt = float(np.linalg.norm(np.cross(problem.testbed.up, to_matrix(fitted.point.q0)[2])))
+    return sd > TILTED or (not len(problem.observed.attitude) and sd > SHARE * tilt)
+
+
 def without_com(view: Visibility, size: Floats) -> Visibility:
     """Return the view of a fit that does not know the tilt.
 
@@ -266,7 +278,7 @@ def visibility_of(fitted: Fitted) -> Visibility:
         information, scale_of(values, size), size, layout.names, problem.prior.held
     )
     view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
-    if tilt_sd(fitted, view) > TILTED:
+    if is_tilt_open(fitted, view):
         view = without_com(view, size)
     return without_scale(view, layout) if problem.scale_open else view
 

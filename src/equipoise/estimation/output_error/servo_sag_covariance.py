@@ -11,13 +11,14 @@ cost, masses that hang by one sd move the optimum by
     dx = A^-1 db/ds s,        covariance + dx dx^T
 
 Of the first moment m s u (u.n), the part parallel to gravity makes no torque; it is all there is
-for equal masses on three orthogonal rails, and what others make is elastic sag, a torque that is
-sought by its own name. The part with tau damps the motion (it is where a damper takes its energy):
+for equal masses on three orthogonal rails. What others make is elastic sag: near level that of a
+centre of mass as much higher or lower, s (m_z - m_x) / m of a platform's mass m. It is taken up
+where that is sought by its own name. The part with tau damps the motion (it is where a damper takes its energy):
 
     tau_B = m s tau g (u.(w x n)) u x n = -m s tau g (n x u)(n x u)^T w
 
-b(s) has the inertia and the momentum of masses that hang, and this damping; their first moment is
-taken back by rails beside theirs that have nothing else.
+b(s) has the inertia, the momentum and the moment of masses that hang, and this damping. Where sag
+is sought, their first moment is taken back by rails beside theirs that have nothing else.
 
 All masses are taken to hang alike, each in proportion to its ``sag_sd``. Cannot see which part of
 a lag is the log's and not the drive's: all of it counts, and intervals are then too wide.
@@ -59,12 +60,18 @@ def downward(fitted: Fitted) -> Series3:
     return np.column_stack(columns)
 
 
-def without_moment(problem: Problem, hanging: Floats) -> Problem:
-    """Return the problem of masses displaced by ``hanging`` (m, (n, k)) but for first moments."""
+def hanging_in(problem: Problem, hanging: Floats) -> Problem:
+    """Return the problem of masses displaced by ``hanging`` (m, (n, k)).
+
+    Where elastic sag is sought it takes up their first moment: that is taken back.
+    """
     maps, line = problem.maps, problem.line
+    first, d, response = np.split(line.known, [KNOWN_D, KNOWN_D + len(maps.momentum)], axis=1)
+    if not set(GROUPS["sag"]) <= set(problem.layout.terms):
+        known = np.hstack([first, d + hanging, response])
+        return replace(problem, line=line._replace(known=known))
     beside = MassMaps(maps.first_moment, *(np.zeros_like(m) for m in maps[1:]))
     both = MassMaps(*(np.vstack(pair) for pair in zip(maps, beside, strict=True)))
-    first, d, response = np.split(line.known, [KNOWN_D, KNOWN_D + len(maps.momentum)], axis=1)
     known = np.hstack([first, d + hanging, -hanging, response])
     return replace(problem, maps=both, line=line._replace(known=known))
 
@@ -116,7 +123,7 @@ def descent_by_sag(fitted: Fitted, covariance: Square) -> Floats | None:
         torque = fitted.point.torque.copy()
         torque[INDEX] += part * rest
         point = replace(fitted.point, torque=torque)
-        return evaluate(without_moment(problem, part * hanging), point, fitted.jumps).descent
+        return evaluate(hanging_in(problem, part * hanging), point, fitted.jumps).descent
 
     return taken_up + (descent(STEP) - descent(-STEP)) / (2 * STEP)
 
