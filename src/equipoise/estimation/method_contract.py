@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card, Choice
@@ -30,6 +31,7 @@ class Options:
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
     robust: bool = False  # outliers weigh less
+    budget: Budget = UNLIMITED  # of the search
 
 
 FIELDS: dict[Choice, str] = {

@@ -19,7 +19,7 @@ from equipoise.estimation.events.record_model import RecordModel, jumping, refit
 from equipoise.estimation.model_selection.decimation import condensed
 from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
-from equipoise.estimation.model_selection.survey import MOST_EVENTS, survey
+from equipoise.estimation.model_selection.survey import MOST_EVENTS, is_calm, survey
 from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
     driven,
@@ -36,6 +36,7 @@ from equipoise.estimation.output_error.outlier_rejection import without_outliers
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
 from equipoise.estimation.output_error.trajectory import METHOD, Params, at_rest
+from equipoise.estimation.search_budget import budget_reasons
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Residual
@@ -192,6 +193,16 @@ def with_sure_scale(model: RecordModel) -> RecordModel:
 
 def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Estimate:
     """Return the estimate that a model of a record comes to."""
+    found = as_if_finished(model, recording, params)
+    if not model.unfinished:
+        return found
+    explained = found.outcome.usable and is_calm(model)
+    cut_short = budget_reasons(model.unfinished, explained)
+    return replace(found, outcome=Outcome((*found.outcome.reasons, *cut_short)))
+
+
+def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> Estimate:
+    """Return the same by what the search found, finished or not."""
     concluded = conclude(model.fitted, METHOD, recording, model.coloured)
     if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):
         return concluded

@@ -61,6 +61,7 @@ from equipoise.estimation.model_selection.model_choice import (
 )
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.search_budget import UNLIMITED, Stage
 from equipoise.maths.whiteness import WHITE, portmanteau
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.recording import Recording
@@ -104,9 +105,9 @@ def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> Rec
 def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
     """Return the model with all terms that the record supports and the events that surprise."""
     refused: Refused = set()
-    while len(model.events) < most:
+    while len(model.events) < most and model.may(Stage.EVENTS):
         model, surprise, fit = calibrated(model)
-        if is_drowned(model):
+        if is_drowned(model) or not model.may(Stage.TERMS):
             break
         group, promise = best_group(model, refused) if terms else ((), 0.0)
         shaken = touched(model, surprise, fit)
@@ -147,6 +148,8 @@ def driven(model: RecordModel, most: int = MOST_EVENTS) -> RecordModel:
     """
     model = model if model.wanders else wandering(model)
     for turn in range(ROUNDS):
+        if not model.may(Stage.EVENTS):
+            break
         wider = searched(model, most)
         if turn > 0 and contents(wider) == contents(model):
             break
@@ -177,7 +180,7 @@ def contents(model: RecordModel) -> tuple[object, ...]:
 
 def lawfully(model: RecordModel, greedy: RecordModel) -> RecordModel:
     """Return ``greedy``, or what is found from a term beside the plain model that is likelier."""
-    if not greedy.events:
+    if not (greedy.events and model.may(Stage.TERMS)):
         return greedy
     termed = [refitted(with_group(model, group)) for group in candidates(model)]
     best = likeliest([greedy, *termed])
@@ -192,6 +195,8 @@ def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
     term may promise little while the fit without it is far off: each is tried against events.
     """
     greedy = lawfully(model, greedy)
+    if not model.may(Stage.TERMS):
+        return greedy
     plain = (greedy.params.terms, greedy.params.sensor) == (
         model.params.terms,
         model.params.sensor,
@@ -207,11 +212,21 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     cuts = cut_times(recording)
     model = RecordModel(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
     if len(cuts) < FEWEST:
-        return replace(model, cuts=np.zeros(0))
+        return ended(replace(model, cuts=np.zeros(0)))
     try:
-        return coloured(examined(levelled(model)))
+        return coloured(ended(examined(levelled(model))))
     except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
-        return replace(model, cuts=np.zeros(0))
+        return ended(replace(model, cuts=np.zeros(0)))
+
+
+def ended(model: RecordModel) -> RecordModel:
+    """Return the model at its optimum, with what its search left unfinished; that is over now.
+
+    What is left of a fit that was ended takes ``EACH`` evaluations at most.
+    """
+    unfinished = model.params.budget.unfinished
+    model = replace(model, unfinished=unfinished, params=replace(model.params, budget=UNLIMITED))
+    return refitted(model) if unfinished and not model.fitted.converged else model
 
 
 def examined(model: RecordModel) -> RecordModel:
@@ -233,6 +248,8 @@ def examined(model: RecordModel) -> RecordModel:
     greedy = repeated(model)
     if len(greedy.events) < MANY:
         return doubted(compared(model, calm(model, greedy), wild=wild))
+    if not model.may(Stage.MODELS):
+        return greedy
     pushed = driven(model)
     if len(greedy.events) >= FEW_EVENTS:
         return doubted(pushed)
@@ -248,7 +265,7 @@ def is_rather_driven(
 
     ``wild``: the plain model with process noise, calibrated, where that is at hand.
     """
-    if not touched_model.events:
+    if not (touched_model.events and model.may(Stage.MODELS)):
         return False
     wild = wild or calibrated(wandering(model))[0]
     return improbability(weighed(wild)) < improbability(touched_model)
@@ -270,6 +287,8 @@ def compared(
     simple = pruned(greedy, colour_of(greedy))
     explained = is_calm(simple)
     if explained and len(simple.events) < MANY and not is_rather_driven(model, simple, wild):
+        return simple
+    if not model.may(Stage.MODELS):
         return simple
     models = [simple, pushed or driven(model)]
     if greedy.events and not explained:
