@@ -5,7 +5,7 @@ same three things and gives the same record, so that lists, tests and studies ne
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -67,7 +67,7 @@ def estimated(method: Method, recording: Recording, testbed: Testbed, options: O
         known = ", ".join(f"--{choice}" for choice in method.card.heeds) or "none of these options"
         raise InputError("method", f"--{name} with {method.card.name}, which knows {known}",
                          "another method, such as trajectory, or no such option")  # fmt: skip
-    return method.run(recording, testbed, options)
+    return method.run(recording, testbed, replace(options, budget=options.budget.renewed()))
 
 
 def origin_of(recording: Recording) -> dict[str, str]:

@@ -8,8 +8,11 @@ Cannot end a descent before the next ``AT_ONCE`` node columns (``output_error.so
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from enum import StrEnum
 
+from equipoise.model.estimate import Estimate
+from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
 
@@ -70,13 +73,17 @@ class Budget:
 UNLIMITED = Budget(without_end)
 
 
-def budget_reasons(unfinished: tuple[Stage, ...], explained: bool) -> tuple[Reason, ...]:
-    """Return what a search did not finish.
+def cut_short(
+    estimate: Estimate, unfinished: tuple[Stage, ...], explained: bool = True
+) -> Estimate:
+    """Return the estimate with what its search did not finish.
 
     Where what is left is noise (``explained``), values hold, but an error that nobody sought may
     hide in them: intervals do not. Else the model lacks what moves the platform.
     """
     if not unfinished:
-        return ()
+        return estimate
     names = tuple(stage.value for stage in unfinished)
-    return (Reason(Why.BUDGET_SPENT if explained else Why.BUDGET_TOO_SMALL, names),)
+    held = explained and estimate.outcome.usable
+    why = Reason(Why.BUDGET_SPENT if held else Why.BUDGET_TOO_SMALL, names)
+    return replace(estimate, outcome=Outcome((*estimate.outcome.reasons, why)))

@@ -42,7 +42,7 @@ from equipoise.estimation.output_error.segment_jumps import Jump, walk
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.parameters.fit_parameters import R, unknowns_of
-from equipoise.estimation.search_budget import Stage, budget_reasons
+from equipoise.estimation.search_budget import Stage, cut_short
 from equipoise.estimation.tracker import tracker
 from equipoise.model.arrays import Floats, Series, Series1, Vector3
 from equipoise.model.estimate import COM, Course, Estimate
@@ -188,8 +188,7 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
     found = drifting(recording, testbed, params)
     try:
         concluded = conclude(found.fitted, METHOD, recording)
-        cut_short = budget_reasons(params.budget.unfinished, concluded.outcome.usable)
-        concluded = replace(concluded, outcome=Outcome((*concluded.outcome.reasons, *cut_short)))
+        concluded = cut_short(concluded, params.budget.unfinished)
         if not found.fitted.converged:
             return concluded
         after = smooth_at(found.fitted)

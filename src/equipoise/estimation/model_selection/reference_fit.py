@@ -36,7 +36,7 @@ from equipoise.estimation.output_error.outlier_rejection import without_outliers
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
 from equipoise.estimation.output_error.trajectory import METHOD, Params, at_rest
-from equipoise.estimation.search_budget import budget_reasons
+from equipoise.estimation.search_budget import cut_short
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Residual
@@ -196,9 +196,7 @@ def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Est
     found = as_if_finished(model, recording, params)
     if not model.unfinished:
         return found
-    explained = found.outcome.usable and is_calm(model)
-    cut_short = budget_reasons(model.unfinished, explained)
-    return replace(found, outcome=Outcome((*found.outcome.reasons, *cut_short)))
+    return cut_short(found, model.unfinished, found.outcome.usable and is_calm(model))
 
 
 def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> Estimate:
