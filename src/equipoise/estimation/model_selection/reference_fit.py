@@ -211,9 +211,12 @@ def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> 
 
 
 def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Estimate:
-    """Return the estimate with what the survey found, and what the held-out part says."""
+    """Return the estimate with what the survey found, and what the held-out part says.
+
+    The latter where the search was finished: it takes long, and is not needed.
+    """
     concluded = with_moments(concluded, model)
     concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
-    residual = held_out(model, concluded.residual)
+    residual = concluded.residual if model.unfinished else held_out(model, concluded.residual)
     return replace(concluded, residual=residual, outcome=outcome_of(model, params, concluded))

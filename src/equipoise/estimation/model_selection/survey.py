@@ -40,8 +40,11 @@ from equipoise.estimation.events.noise_identification import (
 )
 from equipoise.estimation.events.process_noise_spectrum import coloured
 from equipoise.estimation.events.record_model import (
+    EACH,
     Happening,
     RecordModel,
+    active,
+    fitted_in,
     improbability,
     refitted,
     smoothed,
@@ -59,7 +62,7 @@ from equipoise.estimation.model_selection.model_choice import (
     likeliest,
     with_group,
 )
-from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.solution import Fitted, at_once, smooth_at
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.search_budget import UNLIMITED, Stage
 from equipoise.maths.whiteness import WHITE, portmanteau
@@ -75,6 +78,7 @@ MOST_EVENTS, FEW_EVENTS = 40, 8  # with and without process noise, chosen
 MANY = 4  # events, chosen: so many may be a push that comes and goes
 LEAD = 50.0  # -2 ln probability, chosen: more than seeking all once more has gained
 ROUNDS = 3
+CLOSING = 5  # times a descent between two checks of the budget, chosen: to close with
 
 
 def finest_spacing(recording: Recording) -> float:
@@ -214,7 +218,8 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     if len(cuts) < FEWEST:
         return ended(replace(model, cuts=np.zeros(0)))
     try:
-        return coloured(ended(examined(levelled(model))))
+        found = ended(examined(levelled(model)))
+        return found if found.unfinished else coloured(found)
     except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
         return ended(replace(model, cuts=np.zeros(0)))
 
@@ -222,11 +227,16 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
 def ended(model: RecordModel) -> RecordModel:
     """Return the model at its optimum, with what its search left unfinished; that is over now.
 
-    What is left of a fit that was ended takes ``EACH`` evaluations at most.
+    A fit that was cut short goes on for a little. LinAlgError where its stretches say nothing.
     """
     unfinished = model.params.budget.unfinished
     model = replace(model, unfinished=unfinished, params=replace(model.params, budget=UNLIMITED))
-    return refitted(model) if unfinished and not model.fitted.converged else model
+    if unfinished and not model.fitted.converged:
+        few = min(EACH, CLOSING * at_once(model.fitted.problem))
+        model = replace(model, fitted=fitted_in(model, active(model), few))
+    if unfinished and model.fitted.problem.jumps:
+        smooth_at(model.fitted)
+    return model
 
 
 def examined(model: RecordModel) -> RecordModel:
