@@ -48,14 +48,14 @@ def fill(times: Series1, longest: float) -> Series1:
 
 
 def check_steps(times: Series1, longest: float, steps: float) -> None:
-    """Raise InputError for times (s) that are too far apart to be integrated between."""
+    """Raise InputError for times (s) between which integration would not end."""
     if steps > MOST_STEPS:
         found = (
             f"{times[-1] - times[0]:.4g} s from first to last, which takes {steps:.3g} steps of "
             f"{longest:.2g} s"
         )
         wanted = (
-            f"at most {MOST_STEPS} steps: one clock, in seconds, whose rows are not so far apart; "
+            f"at most {MOST_STEPS} steps: one clock, in seconds, without so long a gap; "
             "or a part of the record"
         )
         raise InputError("time", found, wanted)

@@ -201,7 +201,10 @@ def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Est
 
 def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> Estimate:
     """Return the same by what the search found, finished or not."""
-    concluded = conclude(model.fitted, METHOD, recording, model.coloured)
+    try:
+        concluded = conclude(model.fitted, METHOD, recording, model.coloured)
+    except np.linalg.LinAlgError:  # of a search that was cut short
+        return Estimate(METHOD, UNSETTLED, (), np.zeros((0, 0)))
     if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):
         return concluded
     try:

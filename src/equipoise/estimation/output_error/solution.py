@@ -66,7 +66,7 @@ def settle(
 
 
 def at_once(problem: Problem) -> int:
-    """Return how many evaluations a descent may make before it must ask the budget."""
+    """Return how many evaluations a descent makes before its budget may end it."""
     columns = len(problem.line.t) * problem.layout.size
     return max(int(AT_ONCE / columns), FEWEST)
 
