@@ -23,6 +23,7 @@ from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.recording import Samples
 from equipoise.procedure.identification.assess import AssessOptions, assess
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
+from equipoise.procedure.steps.joint_fit import learn
 from tests.support.builders import guessed_wrong, level, noisy, platform, recording
 from tests.support.event_records import KINDS, TRUTH, eventful
 
@@ -139,12 +140,14 @@ def test_a_search_that_is_finished_says_nothing_of_its_budget(touched):
     assert {Stage.EVENTS, Stage.TERMS, Stage.MODELS} <= set(stages)
 
 
-def test_every_estimate_by_a_search_says_that_it_was_cut_short(touched):
+def test_every_estimate_by_a_search_says_that_it_was_cut_short(touched, monkeypatch):
     """Assessing, a smoother and the fits of a balancing as well as identifying."""
+    monkeypatch.setattr(solution, "AT_ONCE", 1.0)
     options = AssessOptions(budget=budget(0))
     *_, assessed, _ = assess(touched, BED, options)
     smoothed = smoothed_estimate(touched, BED, Params(budget=budget(0)))
-    for found in (assessed.estimate, smoothed):
+    learnt = learn(None, touched, BED, budget(0)).estimate
+    for found in (assessed.estimate, smoothed, learnt):
         assert {reason.code for reason in found.outcome.reasons} & CUT_SHORT
 
 

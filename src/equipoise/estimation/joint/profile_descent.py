@@ -242,7 +242,7 @@ def fit_jointly(
     return min(ended, key=lambda each: (not each.converged, finite_cost(each.cost)))
 
 
-def attempt(joint: Joint, budget: Budget) -> Joint:
+def attempt(joint: Joint, budget: Budget = UNLIMITED) -> Joint:
     """Return the optimum from a start; the start itself where a record's information is none."""
     try:
         return descend(moved_to(joint, joint.x), budget)

@@ -230,7 +230,13 @@ def ended(model: RecordModel) -> RecordModel:
     A fit that was cut short goes on for a little. LinAlgError where its stretches say nothing.
     """
     unfinished = model.params.budget.unfinished
-    model = replace(model, unfinished=unfinished, params=replace(model.params, budget=UNLIMITED))
+    problem = replace(model.fitted.problem, budget=UNLIMITED)
+    model = replace(
+        model,
+        unfinished=unfinished,
+        params=replace(model.params, budget=UNLIMITED),
+        fitted=replace(model.fitted, problem=problem),
+    )
     if unfinished and not model.fitted.converged:
         few = min(EACH, CLOSING * at_once(model.fitted.problem))
         model = replace(model, fitted=fitted_in(model, active(model), few))
