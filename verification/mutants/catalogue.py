@@ -159,7 +159,7 @@ ASSESSMENT = _of(
      "lateness(camera) + lateness(gyro)", "assessment/record_checks/test_clock_offset.py"),
     ("record_checks/frozen_rows.py", "(last - first + 1) < ALARMS", "(last - first + 1) > ALARMS",
      "assessment/record_checks/test_flagged_rows.py"),
-    ("record_checks/rate_quality.py", "float(gaps.min(initial=np.inf))", "float(gaps.max(initial=0.0))",
+    ("record_checks/rate_quality.py", "gaps.min(initial=np.inf)", "gaps.max(initial=0.0)",
      "assessment/findings/test_record_findings.py"),
 )  # fmt: skip
 
