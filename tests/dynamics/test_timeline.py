@@ -5,7 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equipoise.dynamics.timeline import corners, distinct, fill, straight_lines, timeline
+from equipoise.dynamics.timeline import (
+    MOST_STEPS,
+    corners,
+    distinct,
+    fill,
+    straight_lines,
+    timeline,
+)
+from equipoise.model.errors import InputError
 from equipoise.model.recording import Samples
 from tests.support.builders import move_at
 
@@ -21,6 +29,15 @@ def test_fill_by_hand():
     """0 to 1 in thirds, 1 to 1.2 as it is."""
     filled = fill(np.array([0.0, 1.0, 1.2]), 0.4)
     np.testing.assert_allclose(filled, [0, 1 / 3, 2 / 3, 1, 1.2], atol=1e-15)
+
+
+def test_times_too_distant_are_refused():
+    """By the number of steps alone: 4e6 are taken, one more is not."""
+    assert len(fill(np.array([0.0, 1.0]), 1.0 / MOST_STEPS)) == MOST_STEPS + 1
+    with pytest.raises(InputError):
+        fill(np.array([0.0, 1.0]), 1.0 / (MOST_STEPS + 1))
+    with pytest.raises(InputError, match=r"1e\+09 s from first to last, which takes 1e\+10 steps"):
+        fill(np.array([0.0, 1.0, 1e9]), 0.1)
 
 
 def test_a_step_of_just_the_longest_is_not_cut():

@@ -21,6 +21,7 @@ from equipoise.estimation.output_error.solution import posed
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
 from equipoise.estimation.parameters.retraction import coordinates, step_work_for
 from equipoise.estimation.tracker.kernel_records import new_tools
+from equipoise.maths.levenberg_marquardt import FIRST, GROWTH
 from equipoise.maths.pseudo_inertia import from_inertia, slope_of_inertia, to_inertia
 from equipoise.maths.scaled_solve import scaled_solve
 from tests.support.builders import move_at, noisy, platform, recording
@@ -37,7 +38,7 @@ def calls() -> dict[str, Callable[[], object]]:
     best, n = local_for(what, point), problem.layout.size
     normal, descent, six = np.empty((n, n)), np.empty(n), np.full(6, 0.1)
     return {
-        "descend": lambda: descend(what, best, 3, normal, descent),
+        "descend": lambda: descend(what, best, 3, normal, descent, FIRST, GROWTH),
         "local_for": lambda: local_for(what, point),
         "chain_for": lambda: chain_for(what.cuts, n),
         "pieces_for": lambda: pieces_for(what.cuts, n, len(point)),

@@ -106,12 +106,14 @@ SENSORS = _of(
 
 DYNAMICS = _of(
     "dynamics",
+    ("timeline.py", "if steps > MOST_STEPS:", "if steps > MOST_STEPS + 1:",
+     "dynamics/test_timeline.py::test_times_too_distant_are_refused"),
     ("regressor.py", "-speed * w[i]", "speed * w[i]", "dynamics/test_regressor.py"),
     ("rigid_body.py", "-gravity * (1.0 - 2.0 * (y[1]", "gravity * (1.0 - 2.0 * (y[1]",
      "dynamics/test_propagation_laws.py"),
     ("sag_trim.py", "return -np.linalg.inv(across) @ pull", "return np.linalg.inv(across) @ pull",
      "dynamics/test_sag_trim.py"),
-    ("timeline.py", "np.ceil(np.diff(times) / longest", "np.floor(np.diff(times) / longest",
+    ("timeline.py", "np.ceil(lengths / longest", "np.floor(lengths / longest",
      "dynamics/test_timeline.py"),
 )  # fmt: skip
 
@@ -157,12 +159,17 @@ ASSESSMENT = _of(
      "lateness(camera) + lateness(gyro)", "assessment/record_checks/test_clock_offset.py"),
     ("record_checks/frozen_rows.py", "(last - first + 1) < ALARMS", "(last - first + 1) > ALARMS",
      "assessment/record_checks/test_flagged_rows.py"),
-    ("record_checks/rate_quality.py", "float(gaps.min())", "float(gaps.max())",
+    ("record_checks/rate_quality.py", "gaps.min(initial=np.inf)", "gaps.max(initial=0.0)",
      "assessment/findings/test_record_findings.py"),
 )  # fmt: skip
 
 ESTIMATION = _of(
     "estimation",
+    ("search_budget.py", "if not self._spent():", "if True:",
+     "estimation/test_search_budget.py::test_a_descent_ends_between_parts_once_its_budget_is_spent"),
+    ("output_error/solution.py", "turn, normal, toward, damping, growth)",
+     "turn, normal, toward, FIRST, GROWTH)", "estimation/test_search_budget.py"
+     "::test_a_descent_in_parts_goes_the_way_of_one_that_is_not_stopped"),
     ("output_error/input_errors.py", "each.direct + covariance @ each.descent",
      "each.direct - covariance @ each.descent", "estimation/output_error/test_input_errors.py"),
     ("output_error/input_errors.py", "np.cross(axis, AXES).T for axis",

@@ -12,9 +12,11 @@ import numpy as np
 
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Ints, Series1
+from equipoise.model.errors import InputError
 from equipoise.model.recording import Samples
 
 TURN_PER_STEP = 0.1  # rad; RK4 then errs by less than 1e-7 rad a step
+MOST_STEPS = 4_000_000  # chosen: half an hour at 500 deg/s by the best sensors, twice as fine
 SAME = 1e-9  # s, chosen: far beyond rounding; means over a shorter step would be rounding alone
 
 
@@ -33,13 +35,30 @@ class Timeline(NamedTuple):
 
 def fill(times: Series1, longest: float) -> Series1:
     """Return ``times`` with steps longer than ``longest`` (s) cut into equal parts."""
-    parts = np.maximum(np.ceil(np.diff(times) / longest - 1e-9), 1).astype(int)
-    if not len(parts) or parts.max() == 1:
+    lengths = np.diff(times)
+    counts = np.maximum(np.ceil(lengths / longest - 1e-9), 1)
+    if not len(counts) or counts.max() == 1:
         return times
+    check_steps(times, longest, float(counts.sum()))
+    parts = counts.astype(int)
     starts = np.repeat(times[:-1], parts)
-    lengths = np.repeat(np.diff(times) / parts, parts)
+    lengths = np.repeat(lengths / parts, parts)
     within = np.arange(int(parts.sum())) - np.repeat(np.cumsum(parts) - parts, parts)
     return np.append(starts + within * lengths, times[-1])
+
+
+def check_steps(times: Series1, longest: float, steps: float) -> None:
+    """Raise InputError for times (s) between which integration would not end."""
+    if steps > MOST_STEPS:
+        found = (
+            f"{times[-1] - times[0]:.4g} s from first to last, which takes {steps:.3g} steps of "
+            f"{longest:.2g} s"
+        )
+        wanted = (
+            f"at most {MOST_STEPS} steps: one clock, in seconds, without so long a gap; "
+            "or a part of the record"
+        )
+        raise InputError("time", found, wanted)
 
 
 def distinct(times: Series1) -> Series1:

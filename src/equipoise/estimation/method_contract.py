@@ -5,10 +5,11 @@ same three things and gives the same record, so that lists, tests and studies ne
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card, Choice
@@ -30,6 +31,7 @@ class Options:
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
     robust: bool = False  # outliers weigh less
+    budget: Budget = UNLIMITED  # of the search
 
 
 FIELDS: dict[Choice, str] = {
@@ -65,7 +67,7 @@ def estimated(method: Method, recording: Recording, testbed: Testbed, options: O
         known = ", ".join(f"--{choice}" for choice in method.card.heeds) or "none of these options"
         raise InputError("method", f"--{name} with {method.card.name}, which knows {known}",
                          "another method, such as trajectory, or no such option")  # fmt: skip
-    return method.run(recording, testbed, options)
+    return method.run(recording, testbed, replace(options, budget=options.budget.renewed()))
 
 
 def origin_of(recording: Recording) -> dict[str, str]:

@@ -16,6 +16,7 @@ from equipoise.model.arrays import Floats
 FREE = 1e-2  # damping beyond which a small promise may only say that steps are kept small
 NEAR = 100.0  # by how much the promise of a bolder step may exceed the tolerance: 0.1 sd
 FIRST, REJECTED, LEAST = 1e-6, 1e-6, 1e-12  # damping: to begin with, after a rejection, ever
+GROWTH = 2.0  # of the damping at a first rejection; doubled at each further one
 TOLERANCE = 1e-4  # of twice the cost: a hundredth of a standard deviation
 
 
@@ -39,7 +40,7 @@ def judge(
     if not np.isfinite(gained) or gained < 0:
         return False, max(damping, REJECTED) * growth, 2.0 * growth
     trust = gained / promised
-    return True, max(damping * max(0.1, 1.0 - (2.0 * trust - 1.0) ** 3), LEAST), 2.0
+    return True, max(damping * max(0.1, 1.0 - (2.0 * trust - 1.0) ** 3), LEAST), GROWTH
 
 
 @part

@@ -52,7 +52,11 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.RUNS_DISAGREE,
     ),
     OutcomeCode.IMPOSSIBLE: (Why.IMPOSSIBLE_INERTIA, Why.FILTER_DIVERGED),
-    OutcomeCode.NOT_CONVERGED: (Why.NOT_CONVERGED, Why.MOTION_NOT_FOUND),
+    OutcomeCode.NOT_CONVERGED: (
+        Why.NOT_CONVERGED,
+        Why.MOTION_NOT_FOUND,
+        Why.BUDGET_TOO_SMALL,
+    ),
     OutcomeCode.NOT_ESTIMATED: (
         Why.TOO_FEW_RESTS,
         Why.RESTS_TOO_ROUGH,
@@ -79,6 +83,7 @@ NOT_TRUSTWORTHY = (
     Why.RESTS_DISAGREE,
     Why.CROSS_CHECKS_DISAGREE,
     Why.SENSOR_IMPLAUSIBLE,
+    Why.BUDGET_SPENT,
 )
 
 

@@ -21,6 +21,7 @@ from equipoise.estimation.joint.profile_descent import (
 from equipoise.estimation.joint.shared_parameters import BODIES, shared_of
 from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.parameters.fit_parameters import CORE, physical
+from equipoise.estimation.search_budget import Budget, Stage
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.estimate import BODY
@@ -148,6 +149,15 @@ def test_a_start_that_leads_nowhere_is_followed_by_another(models, joint, monkey
     sd = np.sqrt(np.diag(inverse_spd(local_model(joint)[0])))
     assert again.converged
     assert np.abs((again.x - joint.x) / sd).max() < 0.05
+
+
+def test_a_descent_whose_budget_is_spent_stays_where_it_is(models, joint):
+    budget = Budget(lambda: lambda: True)
+    found = fit_jointly(models, [1.0, 1.0], BED, budget)
+    assert not found.converged
+    assert np.isfinite(found.cost)
+    assert found.cost >= joint.cost
+    assert budget.unfinished == (Stage.RUNS,)
 
 
 def test_a_prior_on_what_is_shared_counts_once(clean):

@@ -119,3 +119,38 @@ def test_utf_16_is_read(tmp_path) -> None:
     """As PowerShell redirects text."""
     (tmp_path / "r.csv").write_bytes(table().encode("utf-16"))
     np.testing.assert_array_equal(read_recording(tmp_path / "r.csv").attitude.values, Q)
+
+
+ROS = "__time,/imu/orientation/x,/imu/orientation/y,/imu/orientation/z,/imu/orientation/w\n"
+
+
+def foreign(t) -> str:
+    """Return a table of another program."""
+    rows = np.column_stack([t, Q[:, 1:], Q[:, 0]])
+    return ROS + "".join(",".join(map(repr, map(float, r))) + "\n" for r in rows)
+
+
+def test_a_stamp_of_another_clock_at_the_end_is_left_out(tmp_path) -> None:
+    """1e9 s beyond a record of 1.9 s."""
+    t = T.copy()
+    t[-1] += 1e9
+    recording = read(tmp_path, foreign(t))
+    np.testing.assert_array_equal(recording.attitude.t, T[:-1])
+    assert any("1 row beyond a gap of 1e+09 s" in n and "line 21" in n for n in recording.notes)
+
+
+def test_a_stamp_of_another_clock_at_either_end_is_left_out(tmp_path) -> None:
+    """The first is 0 while the clock counts from 1970, the last is of 2286."""
+    t = T + 1.7e9
+    t[0], t[-1] = 0.0, 1e10
+    recording = read(tmp_path, foreign(t))
+    np.testing.assert_allclose(recording.attitude.t, T[1:-1] - T[1], atol=1e-6)
+
+
+def test_rows_behind_a_gap_that_a_bench_may_have_are_kept(tmp_path) -> None:
+    """A quarter of an hour after two seconds; and a gap with half of the rows behind it."""
+    t = T.copy()
+    t[-1] += 1000.0
+    assert len(read(tmp_path, foreign(t)).attitude) == 20
+    t[10:] += 1e9
+    assert len(read(tmp_path, foreign(t)).attitude) == 20

@@ -11,7 +11,7 @@ from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Samples
 from equipoise.procedure.identification.assess import AssessOptions, assess
-from equipoise.procedure.identification.drift_metrics import metrics_over_hours
+from equipoise.procedure.identification.drift_metrics import metrics_over_hours, with_rows
 from equipoise.procedure.identification.swing_metrics import (
     as_one_body,
     standing_part,
@@ -153,6 +153,16 @@ def test_measurements_over_time_show_a_drift():
     assert np.abs(off).max() < 3.5
     assert found.wander.drift[0] > 5 * found.wander.drift_sd[0]
     assert found.wander.deviation[2, 0] > 2 * found.wander.measurements_alone[2, 0]
+
+
+def test_parts_behind_a_wrong_stamp_are_counted_and_not_gone_through():
+    """Of 40 s in parts of 10 s the last row is stamped 1e9 s late: 1e8 parts, 5 with rows."""
+    record = noisy(recording(40.0), 3)
+    t = record.attitude.t.copy()
+    t[-1] += 1e9
+    late = replace(record, attitude=Samples(t, record.attitude.values))
+    assert with_rows(late, 10.0, 100_000_004) == [0, 1, 2, 3]
+    assert with_rows(late, 10.0, 100_000_005) == [0, 1, 2, 3, 100_000_004]
 
 
 def test_too_few_measurements_yield_no_drift():

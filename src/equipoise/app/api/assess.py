@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from equipoise.app.arguments import checks, inputs
+from equipoise.app.arguments.options import BUDGET_S
 from equipoise.app.runs import assessment
 from equipoise.app.runs.assessment import AssessedPlatform, Recordings
 from equipoise.app.runs.waiting import passing_on
@@ -23,6 +24,7 @@ def assess(
     windows: float | None = None,
     terms: Sequence[str] = (),
     hold: Sequence[str] = (),
+    budget_s: float = BUDGET_S,
     on_step: Callable[[Step], None] | None = None,
 ) -> AssessedPlatform:
     """Say what gravity still does to a platform, how surely, and whether that is good enough.
@@ -51,6 +53,8 @@ def assess(
         Torques to consider too: viscous, quadratic, constant, swirl, sag or drift.
     hold
         Parameters to keep at the testbed's value, such as inertia_P_zz.
+    budget_s
+        Processor time that a search may take, s; it ends then with the best that it has found.
     on_step
         Called with each step as it is done, those of ``before`` last.
 
@@ -71,6 +75,7 @@ def assess(
         require_offset,
         requested.terms,
         requested.hold,
+        inputs.budget_from(budget_s),
     )
     earlier = None if before is None else inputs.recording_from(before, bed)
     of = Recordings(inputs.recording_from(recording, bed), earlier, windows)

@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from equipoise.app.arguments import checks
-from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
+from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, budget_from, plan_from, testbed_from
+from equipoise.app.arguments.options import BUDGET_S
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.model.bench import Bench
 from equipoise.model.step import Step
@@ -23,6 +24,7 @@ def balance(
     max_moves: int | None = None,
     max_time: float | None = None,
     hold: float = 0.0,
+    budget_s: float = BUDGET_S,
     on_step: Callable[[Step], None] | None = None,
 ) -> Balancing:
     """Balance a platform, and test the result on what comes after.
@@ -51,6 +53,8 @@ def balance(
         Bench time before giving up, s: 120, or 600 before a hold or with another law.
     hold
         Then follow the drift and hold the balance for this time, s.
+    budget_s
+        Processor time that a search may take, s; it ends then with the best that it has found.
     on_step
         Called with each step as it is done.
 
@@ -64,6 +68,7 @@ def balance(
         checks.positive("max_time", max_time),
         checks.not_negative("hold", hold),
         checks.one_of("law", law, list(CARDS)),
+        budget=budget_from(budget_s),
     )
     goal = Goal(checks.vector("target", target, 1.0), checks.tolerance("tolerance", tolerance, 1.0))
     own = isinstance(platform, Bench)

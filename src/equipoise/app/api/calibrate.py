@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from equipoise.app.arguments import inputs
+from equipoise.app.arguments.options import BUDGET_S
 from equipoise.estimation.calibration.calibration import CalibrateOptions
 from equipoise.model.estimate import Estimate
 from equipoise.procedure.identification import calibrate as procedure
@@ -16,6 +17,7 @@ def calibrate(
     terms: Sequence[str] = (),
     hold: Sequence[str] = (),
     use_prior: bool = False,
+    budget_s: float = BUDGET_S,
 ) -> Estimate:
     """Estimate gain, rail and backlash of masses from commanded moves; alignment of sensors too.
 
@@ -35,6 +37,8 @@ def calibrate(
         Parameters to keep at the testbed's value, such as inertia_P_zz.
     use_prior
         Use the testbed's inertia and centre of mass with their sd.
+    budget_s
+        Processor time that a search may take, s; it ends then with the best that it has found.
 
     Raises
     ------
@@ -42,5 +46,6 @@ def calibrate(
         For files that cannot be read, unknown names, and a recording that does not fit the testbed.
     """
     bed, requested = inputs.testbed_from(testbed), inputs.options_from(terms, hold, use_prior)
-    options = CalibrateOptions(tuple(reference), requested.terms, requested.hold, use_prior)
+    budget = inputs.budget_from(budget_s)
+    options = CalibrateOptions(tuple(reference), requested.terms, requested.hold, use_prior, budget)
     return procedure.calibrate(inputs.recording_from(recording, bed), bed, options)

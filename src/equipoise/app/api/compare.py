@@ -1,9 +1,11 @@
 """Compare: methods on the same recordings, laws on the same platforms."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from equipoise.app.arguments import checks
-from equipoise.app.arguments.inputs import TILT, AnyTestbed, options_from, testbed_from
+from equipoise.app.arguments.inputs import TILT, AnyTestbed, budget_from, options_from, testbed_from
+from equipoise.app.arguments.options import BUDGET_S
 from equipoise.app.runs.comparison import Compared, Contest, LawGoal, names_of, run_all
 from equipoise.study.method_record import Scene
 
@@ -21,6 +23,7 @@ def compare(
     terms: Sequence[str] = (),
     hold: Sequence[str] = (),
     use_prior: bool = False,
+    budget_s: float = BUDGET_S,
     target: checks.Triple = (0.0, 0.0, 0.0),
     tolerance: checks.Triple = (2e-6, 2e-6, 3e-6),
     tilt: float = TILT,
@@ -56,6 +59,8 @@ def compare(
         Methods: parameters to keep at the testbed's value.
     use_prior
         Methods: use the testbed's inertia and centre of mass with their sd.
+    budget_s
+        Processor time that a search may take, s; it ends then with the best that it has found.
     target
         Laws: where the centre of mass is wanted, from the centre of rotation, body axes, m.
     tolerance
@@ -77,7 +82,7 @@ def compare(
     """
     bed, first = testbed_from(testbed), checks.seed_of(seed)
     seeds = range(first, first + int(checks.positive("runs", runs)))
-    requested = options_from(terms, hold, use_prior)
+    requested = replace(options_from(terms, hold, use_prior), budget=budget_from(budget_s))
     scene = Scene(bed, checks.positive("duration", duration), tuple(moves), requested)
     goal = LawGoal(
         checks.vector("target", target, 1.0),

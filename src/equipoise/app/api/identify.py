@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import overload
 
 from equipoise.app.arguments import inputs
+from equipoise.app.arguments.options import BUDGET_S
 from equipoise.app.runs import identification, joint_identification
 from equipoise.app.runs.identification import Identification
 from equipoise.app.runs.joint_identification import JointIdentification
@@ -26,6 +27,7 @@ def identify(
     hold: Sequence[str] = (),
     use_prior: bool = False,
     robust: bool = False,
+    budget_s: float = BUDGET_S,
     plan: inputs.AnyPlan | None = None,
     on_step: Callable[[Step], None] | None = None,
 ) -> Identification: ...
@@ -41,6 +43,7 @@ def identify(
     hold: Sequence[str] = (),
     use_prior: bool = False,
     robust: bool = False,
+    budget_s: float = BUDGET_S,
     plan: None = None,
     on_step: Callable[[Step], None] | None = None,
 ) -> JointIdentification: ...
@@ -55,6 +58,7 @@ def identify(
     hold: Sequence[str] = (),
     use_prior: bool = False,
     robust: bool = False,
+    budget_s: float = BUDGET_S,
     plan: inputs.AnyPlan | None = None,
     on_step: Callable[[Step], None] | None = None,
 ) -> Identification | JointIdentification:
@@ -81,6 +85,8 @@ def identify(
         Use the testbed's inertia and centre of mass with their sd; this fixes an open scale.
     robust
         Give outliers less weight.
+    budget_s
+        Processor time that a search may take, s; it ends then with the best that it has found.
     plan
         Plan that the recording was made by, or its file; its predictions are compared.
     on_step
@@ -93,8 +99,9 @@ def identify(
     """
     bed = inputs.testbed_from(testbed)
     requested = inputs.options_from(terms, hold, use_prior, robust)
+    budget = inputs.budget_from(budget_s)
     planned = None if plan is None else inputs.plan_from(plan, bed)
-    options = IdentifyOptions(method, requested.terms, requested.hold, use_prior, robust)
+    options = IdentifyOptions(method, requested.terms, requested.hold, use_prior, robust, budget)
     if isinstance(recording, list | tuple):
         if plan is not None:
             raise InputError("plan", "several recordings", "the one that was made by the plan")

@@ -1,8 +1,10 @@
 """Observe: what a recording can and cannot show, before anything is estimated."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from equipoise.app.arguments import inputs
+from equipoise.app.arguments.options import BUDGET_S
 from equipoise.app.runs import observation
 from equipoise.app.runs.observation import Observation
 
@@ -14,6 +16,7 @@ def observe(
     terms: Sequence[str] = (),
     hold: Sequence[str] = (),
     use_prior: bool = False,
+    budget_s: float = BUDGET_S,
 ) -> Observation:
     """Return the least sd that any method can reach, parameter by parameter, SI units.
 
@@ -32,6 +35,8 @@ def observe(
         Parameters to keep at the testbed's value, such as inertia_P_zz.
     use_prior
         Use the testbed's inertia and centre of mass with their sd.
+    budget_s
+        Processor time that a search may take, s; it ends then with the best that it has found.
 
     Raises
     ------
@@ -40,4 +45,5 @@ def observe(
     """
     bed = inputs.testbed_from(testbed)
     requested = inputs.options_from(terms, hold, use_prior)
+    requested = replace(requested, budget=inputs.budget_from(budget_s))
     return observation.run(inputs.recording_from(recording, bed), bed, requested)

@@ -3,12 +3,14 @@
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.actuators.stored_momentum import with_known_inputs
-from equipoise.app.arguments.checks import one_of
+from equipoise.app.arguments.checks import one_of, positive
 from equipoise.estimation.method_contract import Options
+from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.documents.plan_file import read_plan
@@ -34,6 +36,13 @@ TILT = math.radians(20.0)  # that torques are judged within, unless another is r
 FEWEST = 3  # rows of a sensor that a window must leave, as when a file is read
 MOVE = re.compile(r"\s*(?P<time>[^:\s]+)\s*:\s*(?P<goals>\S+=\S+(?:[\s,]+\S+=\S+)*)\s*")
 WANTED_MOVE = "'seconds: mass=mm mass=mm', such as '60: x1=-10 z1=-50'"
+
+
+def budget_from(budget_s: float) -> Budget:
+    """Return the budget of searches that may take so many seconds of processor time each."""
+    from equipoise.app.arguments.search_time import budget_of
+
+    return budget_of(positive("budget_s", budget_s))
 
 
 def testbed_from(testbed: AnyTestbed) -> Testbed:
@@ -139,9 +148,11 @@ def options_from(
     return Options(expand(tuple(terms), of_terms), tuple(hold), use_prior, robust)
 
 
-def options_of(seeking: "Seeking") -> Options:
+def options_of(seeking: "Seeking", budget: Budget = UNLIMITED) -> Options:
     """Return the options of a fit, as a command's options have them."""
-    return options_from(seeking.term, seeking.hold, seeking.prior, named=("--term", "--hold"))
+    named = ("--term", "--hold")
+    options = options_from(seeking.term, seeking.hold, seeking.prior, named=named)
+    return replace(options, budget=budget)
 
 
 def move_of(text: str, testbed: Testbed) -> tuple[float, dict[str, float]]:

@@ -23,6 +23,7 @@ def _whole(_kind: Any, tokens: Sequence[Token]) -> int:
         raise InputError(token.keyword or "number", token.value, "a whole number") from None
 
 
+BUDGET_S = 60.0  # s, chosen: what a person waits for
 Flag = Annotated[bool, Parameter(show_default=False)]
 Json = Annotated[bool, Parameter(show_default=False, help="Print one JSON document instead.")]
 Names = Annotated[tuple[str, ...], Parameter(show_default=False)]
@@ -53,6 +54,23 @@ class Seeking:
 
 
 NOTHING_STATED = Seeking()
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
+class Searching:
+    """How long a search may take.
+
+    Attributes
+    ----------
+    budget_s
+        Processor time that a search may take; it ends then with the best that it has found.
+    """
+
+    budget_s: float = BUDGET_S
+
+
+USUAL = Searching()
 
 
 @Parameter(name="*")

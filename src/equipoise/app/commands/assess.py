@@ -2,7 +2,16 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Reading, Seeking, Triple
+from equipoise.app.arguments.options import (
+    NOTHING_STATED,
+    USUAL,
+    WHOLE,
+    Json,
+    Reading,
+    Searching,
+    Seeking,
+    Triple,
+)
 from equipoise.app.console.terminal import busy
 
 
@@ -18,6 +27,7 @@ def assess(
     require_offset_um: float | None = None,
     windows_s: float | None = None,
     seeking: Seeking = NOTHING_STATED,
+    searching: Searching = USUAL,
     reading: Reading = WHOLE,
     json: Json = False,
     out: Path | None = None,
@@ -66,11 +76,12 @@ def assess(
     with busy("assessing", announce=False):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.assessment import Recordings, run
-        from equipoise.app.runs.terminal_waiting import AT_TERMINAL
+        from equipoise.app.runs.terminal_waiting import AT_TERMINAL, budget_at_terminal
         from equipoise.app.views.assess_views import output_of
         from equipoise.procedure.identification.assess import AssessOptions
 
-        options = AssessOptions(goal, tilt, torque, offset, of_fit.terms, of_fit.hold)
+        budget = budget_at_terminal(searching)
+        options = AssessOptions(goal, tilt, torque, offset, of_fit.terms, of_fit.hold, budget)
     done = run(Recordings(recording, earlier, windows), bed, options, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     verdict = done.verdict

@@ -4,7 +4,15 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import WHOLE, Json, Reading, Triple, Whole
+from equipoise.app.arguments.options import (
+    USUAL,
+    WHOLE,
+    Json,
+    Reading,
+    Searching,
+    Triple,
+    Whole,
+)
 from equipoise.app.commands.by_hand import (
     MOVED,
     Manual,
@@ -40,6 +48,7 @@ def balance(
     hold_min: float = 0.0,
     by_hand: Manual = MOVED,
     reading: Reading = WHOLE,
+    searching: Searching = USUAL,
     on_bench: OnBench = SIMULATED,
     json: Json = False,
     out: Path | None = None,
@@ -100,10 +109,12 @@ def balance(
     with busy("preparing the bench", announce=False):
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.balancing import Goal, Limits
+        from equipoise.app.runs.terminal_waiting import budget_at_terminal
         from equipoise.app.views.balance_views import output_of
         from equipoise.procedure.balancing.catalogue import CARDS
 
-        limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
+        budget = budget_at_terminal(searching)
+        limits = Limits(*until, one_of("--law", law, list(CARDS)), planned, budget)
     if runs is not None:
         return _series(bed, Goal(*where), limits, (runs, seed), json=json, out=out)
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)

@@ -5,11 +5,13 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import (
     NOTHING_STATED,
+    USUAL,
     WHOLE,
     Flag,
     Json,
     Names,
     Reading,
+    Searching,
     Seeking,
 )
 from equipoise.app.console.terminal import busy, show_paths
@@ -30,6 +32,7 @@ def calibrate(
     moves: Flag = False,
     reference: Names = (),
     seeking: Seeking = NOTHING_STATED,
+    searching: Searching = USUAL,
     reading: Reading = WHOLE,
     write: Path | None = None,
     json: Json = False,
@@ -65,10 +68,12 @@ def calibrate(
         raise InputError("calibrate", "no recording", "a file, or --moves to see which to make")
     check_outputs(out, write)
     from equipoise.app.logbook.output import hand_over
+    from equipoise.app.runs.terminal_waiting import budget_at_terminal
     from equipoise.app.views.calibration_views import output_of
 
     of_fit = options_of(seeking)
-    options = CalibrateOptions(reference, of_fit.terms, of_fit.hold, of_fit.use_prior)
+    budget = budget_at_terminal(searching)
+    options = CalibrateOptions(reference, of_fit.terms, of_fit.hold, of_fit.use_prior, budget)
     found = _carried_out(file, bed, reading, options)
     hand_over(output_of(found), json, out)
     if not found.estimate.outcome.usable:

@@ -8,9 +8,11 @@ from cyclopts import Parameter
 
 from equipoise.app.arguments.options import (
     NOTHING_STATED,
+    USUAL,
     Flag,
     Json,
     Names,
+    Searching,
     Seeking,
     Triple,
     Whole,
@@ -62,6 +64,7 @@ def compare(
     duration_s: float = 120.0,
     move: Names = (),
     seeking: Seeking = NOTHING_STATED,
+    searching: Searching = USUAL,
     judging: JudgingLaws = AS_THEY_ARE,
     workers: Whole = 2,
     json: Json = False,
@@ -102,16 +105,17 @@ def compare(
     bed, first = testbed_from(testbed), seed_of(seed)
     seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
-    duration, options = positive("--duration-s", duration_s), options_of(seeking)
+    duration = positive("--duration-s", duration_s)
     many = int(positive("--workers", workers))
     check_outputs(out)
     with busy("preparing", announce=False):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.comparison import Contest, names_of, run_all
-        from equipoise.app.runs.terminal_waiting import AT_TERMINAL
+        from equipoise.app.runs.terminal_waiting import AT_TERMINAL, budget_at_terminal
         from equipoise.app.views.study.comparison_report import output_of
         from equipoise.study.method_record import Scene
 
+        options = options_of(seeking, budget_at_terminal(searching))
         goal, names = _goal(judging), names_of(bed, only, methods, laws)
         scene = Scene(bed, duration, moves, options)
     done = run_all(Contest(names, scene, seeds, goal), many, AT_TERMINAL)

@@ -4,7 +4,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Json, Reading, Seeking
+from equipoise.app.arguments.options import (
+    NOTHING_STATED,
+    USUAL,
+    WHOLE,
+    Flag,
+    Json,
+    Reading,
+    Searching,
+    Seeking,
+)
 from equipoise.app.console.terminal import busy
 from equipoise.model.errors import InputError
 
@@ -27,6 +36,7 @@ def identify(
     robust: Flag = False,
     plan: Path | None = None,
     seeking: Seeking = NOTHING_STATED,
+    searching: Searching = USUAL,
     reading: Reading = WHOLE,
     json: Json = False,
     out: Path | None = None,
@@ -72,11 +82,13 @@ def identify(
     recordings = [fitting_recording_of(each, reading, bed) for each in (file, *more)]
     planned = None if plan is None else plan_from(plan, bed)
     with busy("identifying", announce=False):
+        from equipoise.app.runs.terminal_waiting import budget_at_terminal
         from equipoise.estimation.methods.registry import METHODS
         from equipoise.procedure.identification.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
-    options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust)
+    budget = budget_at_terminal(searching)
+    options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust, budget)
     if more:
         return _jointly(recordings, bed, options, json=json, out=out)
     return _from_one(recordings[0], bed, options, planned, json=json, out=out)

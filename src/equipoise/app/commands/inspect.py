@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import WHOLE, Json, Reading
+from equipoise.app.arguments.options import USUAL, WHOLE, Json, Reading, Searching
 from equipoise.app.console.terminal import show_paths
 
 if TYPE_CHECKING:
@@ -16,6 +16,7 @@ def inspect(
     /,
     *,
     testbed: str | None = None,
+    searching: Searching = USUAL,
     reading: Reading = WHOLE,
     json: Json = False,
     figure: Path | None = None,
@@ -44,7 +45,7 @@ def inspect(
     bed = None if testbed is None else testbed_from(testbed)
     recording = recording_of(file, reading)
     found = [*findings(recording, bed)]
-    found += [NOT_SOUGHT] if bed is None else _happened(file, reading, bed)
+    found += [NOT_SOUGHT] if bed is None else _happened(file, reading, bed, searching)
     if figure is not None:
         from equipoise.app.figures.base.files import write_figure
         from equipoise.app.figures.recording.record import draw
@@ -56,16 +57,20 @@ def inspect(
     return 0
 
 
-def _happened(file: str, reading: Reading, testbed: "Testbed") -> "list[Finding]":
+def _happened(
+    file: str, reading: Reading, testbed: "Testbed", searching: Searching
+) -> "list[Finding]":
     """Return what a fit of the record stepped over, and how well it explains the rest."""
     from equipoise.app.arguments.inputs import fitting_recording_of
     from equipoise.app.console.terminal import watched
+    from equipoise.app.runs.terminal_waiting import budget_at_terminal
     from equipoise.assessment.findings.event_findings import event_findings
     from equipoise.model.finding import Finding
     from equipoise.procedure.identification.identify import IdentifyOptions, identify
 
     recording = fitting_recording_of(file, reading, testbed)
-    *_, last = watched(identify(recording, testbed, IdentifyOptions("trajectory")), "fitting")
+    options = IdentifyOptions("trajectory", budget=budget_at_terminal(searching))
+    *_, last = watched(identify(recording, testbed, options), "fitting")
     if last.estimate is None:
         return []
     outcome = last.estimate.outcome

@@ -2,7 +2,15 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Reading, Seeking
+from equipoise.app.arguments.options import (
+    NOTHING_STATED,
+    USUAL,
+    WHOLE,
+    Json,
+    Reading,
+    Searching,
+    Seeking,
+)
 from equipoise.app.console.terminal import busy
 
 
@@ -12,6 +20,7 @@ def observe(
     *,
     testbed: str,
     seeking: Seeking = NOTHING_STATED,
+    searching: Searching = USUAL,
     reading: Reading = WHOLE,
     json: Json = False,
     out: Path | None = None,
@@ -31,8 +40,9 @@ def observe(
     """
     from equipoise.app.arguments.checks import check_outputs
     from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
+    from equipoise.app.runs.terminal_waiting import budget_at_terminal
 
-    bed, options = testbed_from(testbed), options_of(seeking)
+    bed, options = testbed_from(testbed), options_of(seeking, budget_at_terminal(searching))
     check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
     with busy("following the motion"):

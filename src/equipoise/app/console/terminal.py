@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from equipoise.model.step import Step
 
 COMPILING = "compiling kernels, once"
-_DRAWN_ON: list["Console"] = []  # consoles with a sign of life
+_DRAWN: list["_SignOfLife"] = []
 REFRESHES = 8.0  # Hz, chosen: as often as a person can follow, at little cost
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -37,7 +37,7 @@ def stderr() -> "Console":
 
     What that one prints stands above; another would print into the middle of what is drawn.
     """
-    return _DRAWN_ON[-1] if _DRAWN_ON else _new_stderr()
+    return _DRAWN[-1].console if _DRAWN else _new_stderr()
 
 
 def _new_stderr() -> "Console":
@@ -96,28 +96,36 @@ class _SignOfLife:
         from rich.live import Live
         from rich.spinner import Spinner
 
-        self._console, self._announce, self._said = _new_stderr(), announce, list[str]()
-        plain = self._console.options.ascii_only
+        self.console, self._announce, self._said = _new_stderr(), announce, list[str]()
+        self._what = text
+        plain = self.console.options.ascii_only
         self._line = Spinner("line" if plain else "dots", style="status.spinner")
         shown = self._line if above is None else Group(above, self._line)
-        self._live = Live(
-            shown, console=self._console, refresh_per_second=REFRESHES, transient=True
-        )
+        self._live = Live(shown, console=self.console, refresh_per_second=REFRESHES, transient=True)
         self.say(text)
 
     def begin(self) -> None:
-        _DRAWN_ON.append(self._console)
+        _DRAWN.append(self)
         self._live.start(refresh=True)
 
     def end(self) -> None:
-        _DRAWN_ON.remove(self._console)
+        _DRAWN.remove(self)
         self._live.stop()
 
     def say(self, text: str) -> None:
         self._line.update(text=f"{text} ...")
-        if self._announce and not self._console.is_interactive and text not in self._said:
+        if self._announce and not self.console.is_interactive and text not in self._said:
             self._said.append(text)
-            self._console.print(f"{text} ...")
+            self.console.print(f"{text} ...")
+
+    def say_stage(self, stage: str) -> None:
+        self.say(f"{self._what}: {stage}")
+
+
+def say_what_is_done(stage: str) -> None:
+    """Show what a search is at, beside what is being done."""
+    if _DRAWN:
+        _DRAWN[-1].say_stage(stage)
 
 
 @contextmanager

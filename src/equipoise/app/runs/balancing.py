@@ -13,6 +13,7 @@ from equipoise.app.figures.balancing.balanced_com import Marked
 from equipoise.app.runs.waiting import as_they_come, shown
 from equipoise.app.text.before_after import Change
 from equipoise.app.text.com_estimate import ComEstimate, com_after
+from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError
@@ -93,6 +94,7 @@ class Limits:
     hold: float = 0.0  # s
     law: str = OWN.name
     plan: Manoeuvre | None = None  # to begin with
+    budget: Budget = UNLIMITED  # of each fit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -186,8 +188,9 @@ def requested_stop(bench: Bench, stop: KeyboardInterrupt, reported: str) -> Step
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     """Return the steps of balancing and, when that passes and a hold is requested, of holding."""
-    holding = HoldOptions(goal.target, goal.tolerance, duration=limits.hold)
-    usual = holding.balancing if limits.hold > 0 else BalanceOptions(goal.target, goal.tolerance)
+    aim, budget = (goal.target, goal.tolerance), limits.budget
+    holding = HoldOptions(*aim, duration=limits.hold, budget=budget)
+    usual = holding.balancing if limits.hold > 0 else BalanceOptions(*aim, budget=budget)
     moves = usual.max_moves if limits.max_moves is None else limits.max_moves
     balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)
     if limits.plan is not None:
@@ -202,7 +205,7 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     if limits.law not in able:
         wanted = f"a hold after {' or '.join(able)}, or no hold"
         raise InputError("--hold-min", f"a hold after {limits.law}", wanted)
-    own = BalanceOptions(goal.target, goal.tolerance)
+    own = BalanceOptions(*aim, budget=budget)
     return balanced_and_followed(limits.law, bench, own, limits.max_time, limits.hold)
 
 

@@ -144,7 +144,8 @@ def run(
 ) -> Comparison:
     """Return the comparison of laws; runs of one platform by all laws follow each other."""
     goal, testbed = contest.goal, contest.scene.testbed
-    options = BalanceOptions(goal.target, goal.tolerance, FIRST_MOVES, goal.max_time)
+    budget = contest.scene.options.budget
+    options = BalanceOptions(goal.target, goal.tolerance, FIRST_MOVES, goal.max_time, budget=budget)
     tasks = [
         Task(card.name, testbed, seed, options, goal.max_time, goal.tilt)
         for seed in contest.seeds

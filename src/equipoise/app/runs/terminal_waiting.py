@@ -3,14 +3,35 @@
 from collections.abc import Iterator
 from functools import partial
 
+from equipoise.app.arguments.checks import positive
+from equipoise.app.arguments.options import Searching
+from equipoise.app.arguments.search_time import budget_of
 from equipoise.app.console.rich_blocks import show
-from equipoise.app.console.terminal import busy, counted, spread_over, watched
+from equipoise.app.console.terminal import (
+    busy,
+    counted,
+    say_what_is_done,
+    spread_over,
+    watched,
+)
 from equipoise.app.live.status_block import TerminalView, watched_by
 from equipoise.app.runs.balancing import Through
 from equipoise.app.runs.waiting import Waiting
 from equipoise.app.text.run_blocks import moment_of
+from equipoise.estimation.search_budget import Budget, Stage
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+
+
+def show_stage(stage: Stage) -> None:
+    """Show what a search is at."""
+    say_what_is_done(stage.value)
+
+
+def budget_at_terminal(searching: Searching) -> Budget:
+    """Return the budget of searches that a person at the terminal waits for."""
+    return budget_of(positive("--budget-s", searching.budget_s), show_stage)
+
 
 AT_TERMINAL = Waiting(watched, busy, counted, spread_over)
 

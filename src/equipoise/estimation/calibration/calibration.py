@@ -48,6 +48,7 @@ from equipoise.estimation.model_selection.reference_fit import check_sensors
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
 from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
@@ -77,6 +78,7 @@ class CalibrateOptions:
     terms: tuple[str, ...] = ()  # torques to estimate, beside the testbed's own
     hold: tuple[str, ...] = ()
     use_prior: bool = False
+    budget: Budget = UNLIMITED  # of the search
 
 
 def in_doubt(testbed: Testbed, reference: tuple[str, ...]) -> Testbed:
@@ -107,7 +109,8 @@ def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions)
     doubted = in_doubt(testbed, options.reference)
     sag = SAG if any(mass.sag_sd > 0 for mass in testbed.masses) else ()  # of drives that give way
     terms = (*options.terms, *sag, *sensor_terms_for(recording))
-    requested = Options(terms, options.hold, options.use_prior)
+    budget = options.budget.renewed()
+    requested = Options(terms, options.hold, options.use_prior, budget=budget)
     about = drives_found(recording, doubted, params_of(doubted, requested))
     fitted = run(recording, about, requested)
     lost = nothing(fitted)
@@ -133,6 +136,8 @@ def drives_found(recording: Recording, testbed: Testbed, params: Params) -> Test
     """Return the testbed with rails and backlashes of plain fits, each about those of the last."""
     about = testbed
     for _ in range(ROUNDS):
+        if not params.budget.allows(Stage.MOTION):
+            break
         plain = fit(recording, about, params)
         found = conclude(plain, METHOD, recording)
         x = np.array([p.value for p in found.parameters])

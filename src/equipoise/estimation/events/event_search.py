@@ -17,6 +17,7 @@ from equipoise.estimation.events.record_model import (
     slowest,
 )
 from equipoise.estimation.output_error.solution import smooth_at
+from equipoise.estimation.search_budget import Stage
 from equipoise.maths.whiteness import spectral_peak
 from equipoise.model.arrays import Floats
 
@@ -77,6 +78,8 @@ def doubted(model: RecordModel) -> RecordModel:
     """
     travelling = during_travels(model, [event.t for event in model.events])
     for k, event in enumerate(model.events):
+        if not model.may(Stage.EVENTS):
+            break
         others = [other for other in KINDS if other != event.kind]
         models = [timed(with_kind(model, k, other), k) for other in others]
         rival = nearest(models)
@@ -107,7 +110,7 @@ def merged(model: RecordModel) -> RecordModel:
     reach = NEAR * model.spacing if model.wanders else SWINGS * slowest(model)
     model = replace(model, events=tuple(sorted(model.events, key=lambda event: event.t)))
     k = 0
-    while k + 1 < len(model.events):
+    while k + 1 < len(model.events) and model.may(Stage.EVENTS):
         if model.events[k + 1].t - model.events[k].t < reach:
             one = joined(model, k)
             if farther(one, model) < threshold(model.spacing):
@@ -145,7 +148,7 @@ def pruned(model: RecordModel, colour: float = 1.0) -> RecordModel:
     chance is greater: at most by its ``colour``, the peak of its spectral density.
     """
     price = threshold(model.spacing) * colour
-    while model.events:
+    while model.events and model.may(Stage.EVENTS):
         worth = surprises_of(model)
         doubtful = [k for k in np.argsort(worth) if worth[k] < DOUBTFUL * price]
         trials = (without(model, k) for k in doubtful)
@@ -177,5 +180,7 @@ def settled(model: RecordModel) -> RecordModel:
     model = timed(merged(model))
     if not model.wanders:
         for k in range(len(model.events)):
+            if not model.may(Stage.EVENTS):
+                break
             model = relocated(model, k)
     return pruned(model)

@@ -21,6 +21,7 @@ from equipoise.estimation.events.jump_test import INFORMATIVE
 from equipoise.estimation.events.record_model import Happening, RecordModel, refitted
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.parameters.fit_parameters import RATE, TURN, unknowns_of
+from equipoise.estimation.search_budget import Stage
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Vector3
@@ -82,6 +83,8 @@ def timed(model: RecordModel, only: int | None = None) -> RecordModel:
     most = FARTHEST[model.wanders] * model.spacing
     chosen = np.ones(len(model.events)) if only is None else np.arange(len(model.events)) == only
     for _ in range(STEPS):
+        if not model.may(Stage.EVENTS):
+            break
         late, sd = moment_errors(model)
         step = chosen * np.clip(late, -most, most)
         if np.all(np.abs(step) <= CLOSE * sd):

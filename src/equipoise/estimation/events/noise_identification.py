@@ -33,6 +33,7 @@ from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import Fitted, freedom
 from equipoise.estimation.output_error.trajectory import problem_of
 from equipoise.estimation.parameters.fit_parameters import RATE
+from equipoise.estimation.search_budget import Stage
 from equipoise.model.arrays import Bools, Floats, Series1, Vector3
 from equipoise.model.estimate import RATE as RATES
 from equipoise.model.testbed import Testbed
@@ -147,7 +148,8 @@ def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitt
         steady = not model.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
         camera, gyro = (len(rows) for rows in (fit.at.left_q, fit.at.left_w))
         known = is_known(factors[0], camera) and is_known(factors[1], gyro)
-        if (steady and known) or calibration >= CALIBRATIONS:
+        found = (steady and known) or calibration >= CALIBRATIONS
+        if found or not model.may(Stage.NOISE):
             return model, surprise, fit
         bold = np.clip(excess, 1 / BOLDEST, BOLDEST)
         testbed = noisier(model, *np.clip(factors, 1 / BOLDEST, BOLDEST))
@@ -181,10 +183,12 @@ def weighed(record_model: RecordModel) -> RecordModel:
     The search begins at less process noise than the calibration left: of two that explain the
     record, the one that leaves more to the sensors is as a rule the likelier.
     """
-    if not record_model.wanders:
+    if not (record_model.wanders and record_model.may(Stage.NOISE)):
         return record_model
     trial = refitted(replace(record_model, walk=0.3 * record_model.walk))
     for _ in range(STEPS):
+        if not trial.may(Stage.NOISE):
+            return record_model
         trial = likelier(trial)
     bare = refitted(replace(trial, walk=np.zeros(3)))
     for _ in range(3):

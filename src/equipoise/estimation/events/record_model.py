@@ -17,6 +17,7 @@ from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.output_error.segment_jumps import Jump, carried, inside, walk
 from equipoise.estimation.output_error.solution import Fitted, cost_of, finite_cost, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, problem_of
+from equipoise.estimation.search_budget import Stage
 from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
 from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording
@@ -57,6 +58,11 @@ class RecordModel:
     fitted: Fitted
     stated: Testbed  # with the noise as it was stated
     coloured: float = 1.0  # times an interval is as wide as rows say that err independently
+    unfinished: tuple[Stage, ...] = ()  # of the search, when its budget was spent
+
+    def may(self, stage: Stage) -> bool:
+        """Say whether the search of this model may go on."""
+        return self.params.budget.allows(stage)
 
     @property
     def wanders(self) -> bool:

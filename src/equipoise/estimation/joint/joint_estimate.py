@@ -44,6 +44,7 @@ from equipoise.estimation.output_error.trajectory import METHOD
 from equipoise.estimation.parameters.flat_body import flat_reasons
 from equipoise.estimation.parameters.observability import Visibility
 from equipoise.estimation.parameters.scale_free_ratios import ORDER, ratios_of
+from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.joint_estimate import JointEstimate, RunScatter
@@ -75,16 +76,19 @@ class Run:
         return self.model is not None and self.estimate.outcome.usable
 
 
-def estimate_jointly(runs: Sequence[Run], testbed: Testbed) -> JointEstimate:
+def estimate_jointly(
+    runs: Sequence[Run], testbed: Testbed, budget: Budget = UNLIMITED
+) -> JointEstimate:
     """Return the estimate of all runs that are usable by themselves, and whether they agree."""
     used = tuple(run.usable for run in runs)
     models = [run.model for run in runs if run.model is not None and run.usable]
     kept = [run for run in runs if run.usable]
     if len(kept) < FEWEST:
         return without_fit(outcome(Why.TOO_FEW_RUNS, usable=len(kept), count=len(runs)), used)
-    joint = fit_jointly(models, [weight_of(model) for model in models], testbed)
+    joint = fit_jointly(models, [weight_of(model) for model in models], testbed, budget)
     if not joint.converged:
-        return without_fit(UNSETTLED, used)
+        lost = cut_short(without_numbers(UNSETTLED), budget.unfinished)
+        return without_fit(lost.outcome, used)
     view = visibility_of(joint)
     own = zip(models, [run.estimate for run in kept], strict=True)
     beside = [beside_fit(joint, k, *each) for k, each in enumerate(own)]

@@ -34,6 +34,7 @@ from equipoise.estimation.output_error.kernels.gauss_newton import HELD
 from equipoise.estimation.output_error.solution import cost_of, evaluate, finite_cost, settle
 from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.estimation.parameters.retraction import possible_step, step_work_for
+from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.maths.levenberg_marquardt import FIRST, judge, promise, tolerated
 from equipoise.maths.linalg import inverse_spd, inverse_where
 from equipoise.maths.scaled_solve import scaled_solve
@@ -148,7 +149,7 @@ def moved_to(joint: Joint, x: Floats) -> Joint:
     return replace(joint, records=records, x=reached)
 
 
-def descend(joint: Joint) -> Joint:
+def descend(joint: Joint, budget: Budget = UNLIMITED) -> Joint:
     """Return the optimum from a joint fit.
 
     It has arrived when a step promises less than a hundredth of a standard deviation a record, as
@@ -156,7 +157,7 @@ def descend(joint: Joint) -> Joint:
     """
     damping, growth = FIRST, 2.0
     for _ in range(MOST):
-        if not np.isfinite(joint.cost):
+        if not (np.isfinite(joint.cost) and budget.allows(Stage.RUNS)):
             return joint
         normal, descent = local_model(joint)
         step = within_possible(joint, normal, descent, damping)
@@ -218,7 +219,12 @@ def first_record(model: RecordModel, names: tuple[str, ...], weight: float) -> R
     return Record(problem, place, weight, replace(model.fitted, problem=problem, at=at))
 
 
-def fit_jointly(models: Sequence[RecordModel], weights: Sequence[float], testbed: Testbed) -> Joint:
+def fit_jointly(
+    models: Sequence[RecordModel],
+    weights: Sequence[float],
+    testbed: Testbed,
+    budget: Budget = UNLIMITED,
+) -> Joint:
     """Return the joint optimum of records that were each fitted by itself.
 
     ``testbed`` says what is known of the body beforehand.
@@ -230,15 +236,15 @@ def fit_jointly(models: Sequence[RecordModel], weights: Sequence[float], testbed
     )
     ended = list[Joint]()
     for x in starts(shared, records):
-        ended.append(attempt(Joint(shared, records, x)))
-        if ended[-1].converged:
+        ended.append(attempt(Joint(shared, records, x), budget))
+        if ended[-1].converged or budget.unfinished:
             break
     return min(ended, key=lambda each: (not each.converged, finite_cost(each.cost)))
 
 
-def attempt(joint: Joint) -> Joint:
+def attempt(joint: Joint, budget: Budget = UNLIMITED) -> Joint:
     """Return the optimum from a start; the start itself where a record's information is none."""
     try:
-        return descend(moved_to(joint, joint.x))
+        return descend(moved_to(joint, joint.x), budget)
     except np.linalg.LinAlgError:
         return joint

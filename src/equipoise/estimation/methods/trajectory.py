@@ -24,6 +24,7 @@ def params_of(testbed: Testbed, options: Options) -> Params:
         use_prior=options.use_prior,
         hold=options.hold,
         robust=options.robust,
+        budget=options.budget,
     )
 
 

@@ -21,6 +21,7 @@ from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import evaluate, settle
 from equipoise.estimation.output_error.trajectory import at_rest, problem_of
 from equipoise.estimation.parameters.fit_parameters import RATE, TURN, Unknowns, unknowns_of
+from equipoise.estimation.search_budget import Stage
 from equipoise.maths.attitude import turned_on
 from equipoise.model.arrays import Bools, Floats
 from equipoise.model.recording import Recording, Samples, window
@@ -104,4 +105,5 @@ def carried_over(model: RecordModel) -> float:
 def predicts_better(poorer: RecordModel, richer: RecordModel) -> bool:
     """Say whether the richer model is nearer to rows that were held out."""
     score = carried_over if poorer.wanders else bridged
-    return score(richer) < score(poorer)
+    found = score(richer)
+    return poorer.may(Stage.TERMS) and found < score(poorer)

@@ -24,6 +24,7 @@ camera that leans, com may be off by two stated sd; ask for the terms ``drift`` 
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -41,6 +42,7 @@ from equipoise.estimation.output_error.segment_jumps import Jump, walk
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.parameters.fit_parameters import R, unknowns_of
+from equipoise.estimation.search_budget import Stage, cut_short
 from equipoise.estimation.tracker import tracker
 from equipoise.model.arrays import Floats, Series, Series1, Vector3
 from equipoise.model.estimate import COM, Course, Estimate
@@ -120,10 +122,11 @@ def drifting(recording: Recording, testbed: Testbed, params: Params) -> Drifting
     if not found.names or not np.isfinite(found.fitted.at.cost):
         return found
     expected = float(found.sd[0])
-    for _ in range(ROUNDS):
-        found = calibrated(found, expected, up)
-    for _ in range(COLOUR_ROUNDS):
-        found = coloured(found, up)
+    rounds = [partial(calibrated, expected=expected)] * ROUNDS + [coloured] * COLOUR_ROUNDS
+    for improved in rounds:
+        if not params.budget.allows(Stage.DRIFT):
+            break
+        found = improved(found, up=up)
     return replace(found, fitted=disbelieved(found.fitted, up))
 
 
@@ -185,6 +188,7 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
     found = drifting(recording, testbed, params)
     try:
         concluded = conclude(found.fitted, METHOD, recording)
+        concluded = cut_short(concluded, params.budget.unfinished)
         if not found.fitted.converged:
             return concluded
         after = smooth_at(found.fitted)

@@ -10,6 +10,7 @@ import numpy as np
 
 from equipoise.estimation.output_error.solution import Fitted, chi_square_share
 from equipoise.estimation.output_error.trajectory import CAPTURE, Params, fit, misfit_at
+from equipoise.estimation.search_budget import Stage
 from equipoise.model import torque_terms
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -29,6 +30,8 @@ def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Par
     """
     plain = fit(recording, testbed, params)
     if set(DAMPING) <= set(params.terms) or is_close(plain):
+        return params, plain
+    if not params.budget.allows(Stage.MOTION):
         return params, plain
     richer = replace(params, terms=torque_terms.among((*params.terms, *DAMPING)))
     damped = fit(recording, testbed, richer)

@@ -31,6 +31,7 @@ from equipoise.estimation.output_error.problem import changes
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import sensor_sizes, term_sizes
+from equipoise.estimation.search_budget import Stage
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats
 
@@ -150,7 +151,7 @@ def likeliest(models: Sequence[RecordModel]) -> RecordModel:
 def extended(model: RecordModel, group: tuple[str, ...], refused: Refused) -> RecordModel:
     """Return the model with a group of terms, if that predicts better; refuse it otherwise."""
     richer = refitted(with_group(model, group))
-    if richer.fitted.converged and predicts_better(model, richer):
+    if richer.fitted.converged and model.may(Stage.TERMS) and predicts_better(model, richer):
         return richer
     refused.add(group)
     return model
@@ -172,5 +173,7 @@ def is_lawful(richer: RecordModel, shaken: RecordModel, group: tuple[str, ...]) 
 def bared(model: RecordModel, requested: Params) -> RecordModel:
     """Return the model without the terms that later finds have made needless."""
     for group in added_groups(model, requested):
+        if not model.may(Stage.TERMS):
+            break
         model = likeliest([refitted(without_group(model, group)), model])
     return model

@@ -19,7 +19,7 @@ from equipoise.estimation.events.record_model import RecordModel, jumping, refit
 from equipoise.estimation.model_selection.decimation import condensed
 from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
-from equipoise.estimation.model_selection.survey import MOST_EVENTS, survey
+from equipoise.estimation.model_selection.survey import MOST_EVENTS, is_calm, survey
 from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
     driven,
@@ -36,6 +36,7 @@ from equipoise.estimation.output_error.outlier_rejection import without_outliers
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
 from equipoise.estimation.output_error.trajectory import METHOD, Params, at_rest
+from equipoise.estimation.search_budget import cut_short
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Residual
@@ -192,7 +193,18 @@ def with_sure_scale(model: RecordModel) -> RecordModel:
 
 def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Estimate:
     """Return the estimate that a model of a record comes to."""
-    concluded = conclude(model.fitted, METHOD, recording, model.coloured)
+    found = as_if_finished(model, recording, params)
+    if not model.unfinished:
+        return found
+    return cut_short(found, model.unfinished, found.outcome.usable and is_calm(model))
+
+
+def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> Estimate:
+    """Return the same by what the search found, finished or not."""
+    try:
+        concluded = conclude(model.fitted, METHOD, recording, model.coloured)
+    except np.linalg.LinAlgError:  # of a search that was cut short
+        return Estimate(METHOD, UNSETTLED, (), np.zeros((0, 0)))
     if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):
         return concluded
     try:
@@ -202,9 +214,12 @@ def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Est
 
 
 def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Estimate:
-    """Return the estimate with what the survey found, and what the held-out part says."""
+    """Return the estimate with what the survey found, and what the held-out part says.
+
+    The latter where the search was finished: it takes long, and is not needed.
+    """
     concluded = with_moments(concluded, model)
     concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
-    residual = held_out(model, concluded.residual)
+    residual = concluded.residual if model.unfinished else held_out(model, concluded.residual)
     return replace(concluded, residual=residual, outcome=outcome_of(model, params, concluded))

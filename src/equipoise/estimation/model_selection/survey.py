@@ -40,9 +40,12 @@ from equipoise.estimation.events.noise_identification import (
 )
 from equipoise.estimation.events.process_noise_spectrum import coloured
 from equipoise.estimation.events.record_model import (
+    EACH,
     Happening,
     RecordModel,
+    active,
     farther,
+    fitted_in,
     improbability,
     refitted,
     smoothed,
@@ -60,8 +63,9 @@ from equipoise.estimation.model_selection.model_choice import (
     likeliest,
     with_group,
 )
-from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.solution import Fitted, at_once, smooth_at
 from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.search_budget import UNLIMITED, Stage
 from equipoise.maths.whiteness import WHITE, portmanteau
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.recording import Recording
@@ -75,6 +79,7 @@ MOST_EVENTS, FEW_EVENTS = 40, 8  # with and without process noise, chosen
 MANY = 4  # events, chosen: so many may be a push that comes and goes
 LEAD = 50.0  # -2 ln probability, chosen: more than seeking all once more has gained
 ROUNDS = 3
+CLOSING = 5  # times a descent between two checks of the budget, chosen: to close with
 
 
 def finest_spacing(recording: Recording) -> float:
@@ -110,9 +115,9 @@ def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> Rec
 def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
     """Return the model with all terms that the record supports and the events that surprise."""
     refused: Refused = set()
-    while len(model.events) < most:
+    while len(model.events) < most and model.may(Stage.EVENTS):
         model, surprise, fit = calibrated(model)
-        if is_drowned(model):
+        if is_drowned(model) or not model.may(Stage.TERMS):
             break
         group, promise = best_group(model, refused) if terms else ((), 0.0)
         shaken = touched(model, surprise, fit)
@@ -153,6 +158,8 @@ def driven(model: RecordModel, most: int = MOST_EVENTS) -> RecordModel:
     """
     model = model if model.wanders else wandering(model)
     for turn in range(ROUNDS):
+        if not model.may(Stage.EVENTS):
+            break
         wider = searched(model, most)
         if turn > 0 and contents(wider) == contents(model):
             break
@@ -183,7 +190,7 @@ def contents(model: RecordModel) -> tuple[object, ...]:
 
 def lawfully(model: RecordModel, greedy: RecordModel) -> RecordModel:
     """Return ``greedy``, or what is found from a term beside the plain model that is likelier."""
-    if not greedy.events:
+    if not (greedy.events and model.may(Stage.TERMS)):
         return greedy
     termed = [refitted(with_group(model, group)) for group in candidates(model)]
     best = likeliest([greedy, *termed])
@@ -198,6 +205,8 @@ def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
     term may promise little while the fit without it is far off: each is tried against events.
     """
     greedy = lawfully(model, greedy)
+    if not model.may(Stage.TERMS):
+        return greedy
     plain = (greedy.params.terms, greedy.params.sensor) == (
         model.params.terms,
         model.params.sensor,
@@ -213,11 +222,33 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     cuts = cut_times(recording)
     model = RecordModel(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
     if len(cuts) < FEWEST:
-        return replace(model, cuts=np.zeros(0))
+        return ended(replace(model, cuts=np.zeros(0)))
     try:
-        return coloured(examined(levelled(model)))
+        found = ended(examined(levelled(model)))
+        return found if found.unfinished else coloured(found)
     except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
-        return replace(model, cuts=np.zeros(0))
+        return ended(replace(model, cuts=np.zeros(0)))
+
+
+def ended(model: RecordModel) -> RecordModel:
+    """Return the model at its optimum, with what its search left unfinished; that is over now.
+
+    A fit that was cut short goes on for a little. LinAlgError where its stretches say nothing.
+    """
+    unfinished = model.params.budget.unfinished
+    problem = replace(model.fitted.problem, budget=UNLIMITED)
+    model = replace(
+        model,
+        unfinished=unfinished,
+        params=replace(model.params, budget=UNLIMITED),
+        fitted=replace(model.fitted, problem=problem),
+    )
+    if unfinished and not model.fitted.converged:
+        few = min(EACH, CLOSING * at_once(model.fitted.problem))
+        model = replace(model, fitted=fitted_in(model, active(model), few))
+    if unfinished and model.fitted.problem.jumps:
+        smooth_at(model.fitted)
+    return model
 
 
 def examined(model: RecordModel) -> RecordModel:
@@ -239,6 +270,8 @@ def examined(model: RecordModel) -> RecordModel:
     greedy = repeated(model)
     if len(greedy.events) < MANY:
         return doubted(compared(model, calm(model, greedy), wild=wild))
+    if not model.may(Stage.MODELS):
+        return greedy
     pushed = driven(model)
     if len(greedy.events) >= FEW_EVENTS:
         return doubted(pushed)
@@ -254,7 +287,7 @@ def is_rather_driven(
 
     ``wild``: the plain model with process noise, calibrated, where that is at hand.
     """
-    if not touched_model.events:
+    if not (touched_model.events and model.may(Stage.MODELS)):
         return False
     wild = wild or calibrated(wandering(model))[0]
     return improbability(weighed(wild)) < improbability(touched_model)
@@ -276,6 +309,8 @@ def compared(
     simple = pruned(greedy, colour_of(greedy))
     explained = is_calm(simple)
     if explained and len(simple.events) < MANY and not is_rather_driven(model, simple, wild):
+        return simple
+    if not model.may(Stage.MODELS):
         return simple
     models = [simple, pushed or driven(model)]
     if greedy.events and not explained:

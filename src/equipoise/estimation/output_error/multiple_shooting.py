@@ -21,6 +21,7 @@ from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.parameters.fit_parameters import Unknowns
+from equipoise.estimation.search_budget import Stage
 from equipoise.maths.attitude import difference, turned_on
 from equipoise.model.arrays import Floats, Quaternion, Series1, Vector3
 from equipoise.model.estimate import ATTITUDE, RATE
@@ -85,6 +86,8 @@ def tightened(first: tuple[Unknowns, Floats], stages: Iterable[Problem]) -> tupl
     """Return a point and its jumps after some searches, each from where the one before ended."""
     point, jumps = first
     for cut in stages:
+        if not cut.budget.allows(Stage.MOTION):
+            break
         found = settle(cut, point, jumps, EACH)
         point, jumps = found.point, found.jumps
     return point, jumps

@@ -25,6 +25,7 @@ from equipoise.estimation.parameters.fit_parameters import (
     sensor_sizes,
     term_sizes,
 )
+from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.recording import Recording, Samples
@@ -74,6 +75,7 @@ class Problem:
     testbed: Testbed
     longest: float  # s, of a step of integration
     jumps: tuple[Jump, ...] = UNCUT
+    budget: Budget = UNLIMITED  # of its descents
 
 
 def columns_of(layout: Layout) -> Columns:

@@ -9,10 +9,14 @@ from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.kernels.segments import count_free
 from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.parameters.fit_parameters import Unknowns, unknowns_of
+from equipoise.estimation.search_budget import Stage
+from equipoise.maths.levenberg_marquardt import FIRST, GROWTH
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Series, Square
 
 MOST = 300  # evaluations, chosen: a fit that settles takes fewer than thirty
+AT_ONCE = 2e7  # node columns, chosen: about a second, after which a budget may end a descent
+FEWEST = 3  # evaluations, chosen: fewer than two do not move
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,10 +51,24 @@ def settle(
     if jumps is not None:
         best.pieces.jumps[:] = jumps
     normal, toward = np.eye(size), np.zeros(size)
-    ended = gauss_newton.descend(as_posed, best, most, normal, toward)
+    damping, growth, done, several = FIRST, GROWTH, 0, at_once(problem)
+    while True:
+        again = min(done, 1)  # a descent that goes on evaluates once more where it is
+        turn = min(most - done, several) + again
+        ended = gauss_newton.descend(as_posed, best, turn, normal, toward, damping, growth)
+        damping, growth, done = ended.damping, ended.growth, done + ended.evaluations - again
+        over = ended.evaluations < turn or done >= most
+        if over or not problem.budget.allows(Stage.MOTION):
+            break
     at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w)
-    return Fitted(problem, unknowns_of(best.point), at, ended.converged, ended.evaluations,
+    return Fitted(problem, unknowns_of(best.point), at, ended.converged, done,
                   best.pieces.jumps)  # fmt: skip
+
+
+def at_once(problem: Problem) -> int:
+    """Return how many evaluations a descent makes before its budget may end it."""
+    columns = len(problem.line.t) * problem.layout.size
+    return max(int(AT_ONCE / columns), FEWEST)
 
 
 def evaluate(problem: Problem, point: Unknowns, jumps: Floats | None = None) -> Evaluation:

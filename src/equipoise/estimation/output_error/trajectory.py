@@ -44,6 +44,7 @@ from equipoise.estimation.output_error.solution import (
     settle,
 )
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, core_of
+from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import BODY, INERTIA
@@ -74,6 +75,7 @@ class Params:
     fineness: float = 1.0  # by which integration steps are shorter than estimates need
     travels_count: bool = True  # masses went as recorded, so that travels give the scale
     typical: bool = False  # torques are as large as benches have them (``model.torque_terms``)
+    budget: Budget = UNLIMITED  # of the search
 
 
 def layout_of(recording: Recording, testbed: Testbed, params: Params) -> Layout:
@@ -134,7 +136,10 @@ def problem_of(
         prior = with_typical_torques(prior, layout)
     limit = HUBER if params.robust else 0.0
     longest = longest_step(testbed, fastest_rate(recording), recording.rows) / params.fineness
-    return pose(recording, testbed, layout, errors, prior, longest, limit, scale_open, params.jumps)
+    posed = pose(
+        recording, testbed, layout, errors, prior, longest, limit, scale_open, params.jumps
+    )
+    return replace(posed, budget=params.budget)
 
 
 def misfit(problem: Problem, point: Unknowns) -> float:
@@ -177,7 +182,7 @@ def approach(
     share = most
     while share > SHORTEST and misfit(*posed(share)) > CAPTURE:
         share /= 2
-    while share <= 1.0:
+    while share <= 1.0 and params.budget.allows(Stage.MOTION):
         point = replace(settle(*posed(share)).point, error=point.error)
         share *= 2
     return point
@@ -229,6 +234,8 @@ def fit(
         point = guess
     found = settle_pinned(problem, point)
     if guess is not None or explains(found) or recording.attitude is None:
+        return found
+    if not params.budget.allows(Stage.MOTION):
         return found
     shot_at = shoot(recording, testbed, params, point)
     return min(found, settle_pinned(problem, shot_at), key=cost_of)

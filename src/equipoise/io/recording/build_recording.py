@@ -10,7 +10,12 @@ from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.table import Table
 from equipoise.io.recording.attitude_columns import euler_angles, lengths, quaternions
 from equipoise.io.recording.channels import Channel, in_body_axes, read_channel, read_time
-from equipoise.io.recording.time_stamps import forward_rows, gap_notes, without_duplicates
+from equipoise.io.recording.time_stamps import (
+    forward_rows,
+    gap_notes,
+    without_duplicates,
+    without_strays,
+)
 from equipoise.model.arrays import Ints, Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
@@ -78,8 +83,12 @@ def _rows(table: Table, columns: ColumnMap) -> tuple[Rows, Notes]:
     """Return the usable rows, their clock started at zero if it counts from a date."""
     time = read_time(table, columns)
     rows, notes = forward_rows(table, columns, time)
+    if columns.native:
+        return Rows(table, columns, time, rows), notes
+    rows, strays = without_strays(table, time, rows)
+    notes = (*notes, *strays)
     start = float(time[rows[0]])
-    if columns.native or abs(start) < EPOCH:
+    if abs(start) < EPOCH:
         return Rows(table, columns, time, rows), notes
     reported = f"The clock starts at {start:.3f} s; this is taken as zero."
     return Rows(table, columns, time - start, rows), (*notes, reported)

@@ -11,6 +11,8 @@ from equipoise.model.errors import InputError
 Notes = tuple[str, ...]
 LOST = 0.5  # share of rows that may go backward before the table is refused (chosen)
 GAP = 3.0  # median intervals (chosen; one missed row is 2, two are 3)
+STRAY = 1000.0  # times all the rest, chosen: no bench falls silent for so long and goes on
+FEW = 0.1  # share of the rows that may be stray (chosen)
 NAMED = 3  # gaps that are named one by one
 
 
@@ -33,6 +35,26 @@ def forward_rows(table: Table, columns: ColumnMap, time: Series1) -> tuple[Ints,
         raise InputError(f"{table.source}, {place}", found, "times that grow from row to row")
     text = f"{_rows(int(back.sum()))} went back in time, first at {place}; left out."
     return rows, (*notes, text)
+
+
+def without_strays(table: Table, time: Series1, rows: Ints) -> tuple[Ints, Notes]:
+    """Return the rows without few at either end that a gap beyond any measure cuts off.
+
+    A stamp of another clock, or a broken one. Where there are many, what is wrong is not known.
+    """
+    notes: list[str] = []
+    while True:
+        steps = np.diff(time[rows])
+        last = int(np.argmax(steps)) if len(steps) else 0
+        before, after = last + 1, len(rows) - last - 1
+        if min(before, after) >= FEW * len(rows):
+            return rows, tuple(notes)
+        if steps[last] <= STRAY * len(steps) * float(np.median(steps)):
+            return rows, tuple(notes)
+        ahead, behind = rows[:before], rows[before:]
+        stray, rows = (behind, ahead) if after < before else (ahead, behind)
+        text = f"{_rows(len(stray))} beyond a gap of {steps[last]:.3g} s, more than {STRAY:g} times"
+        notes.append(f"{text} all the rest, first at {table.place(int(stray[0]))}; left out.")
 
 
 def without_duplicates(channel: Channel, table: Table) -> tuple[Channel, Notes]:

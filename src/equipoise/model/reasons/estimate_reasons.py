@@ -41,6 +41,18 @@ class EstimateReason(Code):
         "its numbers mean nothing. Try a shorter part of the record, or hold what is known of the "
         "body.",
     )
+    BUDGET_SPENT = (
+        "budget_spent",
+        "The time for the search was spent before it was done with {names}: an error that was not "
+        "sought may hide in the numbers, do not trust the intervals. Give it more (--budget-s "
+        "300), or a shorter part of the record.",
+    )
+    BUDGET_TOO_SMALL = (
+        "budget_too_small",
+        "The time for the search was spent before it was done with {names}, and what is left is "
+        "more than noise: do not trust the numbers. Give it more (--budget-s 300), or a shorter "
+        "part of the record.",
+    )
     RATIOS_ONLY = (
         "ratios_only",
         "The scale is open: only ratios of inertia and centre of mass are known.",

@@ -77,7 +77,7 @@ def balance(
     fresh = bench.read(FIRST_MEASUREMENT)
     if before is not None:
         fresh = join(before, fresh)
-    progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
+    progress = Progress(learn(None, fresh, bench.testbed, options.budget), still_since=began)
     yield measurement_step(bench.time, fresh)
     while True:
         why = reason_to_stop(bench, progress, options, began)
@@ -88,7 +88,7 @@ def balance(
         option = decide(bench, progress, options, began)
         if option is None:
             fresh = bench.read(MEASUREMENT)
-            knowledge = learn(progress.knowledge, fresh, bench.testbed)
+            knowledge = learn(progress.knowledge, fresh, bench.testbed, options.budget)
             progress = replace(progress, knowledge=knowledge)
             continue
         yield estimate_step(bench, progress)
@@ -100,7 +100,7 @@ def balance(
         yield Step("move", bench.time, announced(move), move=move)
         bench.move(move.targets)
         fresh = bench.read(move.duration + MEASUREMENT)
-        knowledge = learn(progress.knowledge, fresh, bench.testbed)
+        knowledge = learn(progress.knowledge, fresh, bench.testbed, options.budget)
         still = bench.time - MEASUREMENT
         progress = Progress(knowledge, (*progress.moves, move), still, option.brake)
         yield measurement_step(bench.time, fresh)

@@ -36,7 +36,7 @@ def balanced_by(
     check(CARDS[name], bench.testbed)
     if name == OWN.name:
         return balance(bench, options)
-    own = LawOptions(options.target, options.tolerance)
+    own = LawOptions(options.target, options.tolerance, budget=options.budget)
     return run_law(bench, LAWS[name], own if max_time is None else replace(own, max_time=max_time))
 
 
@@ -53,7 +53,7 @@ def balanced_and_followed(
         passed = step.verdict is not None and step.verdict.passed
         yield step
     if following is not None and passed:
-        own = LawOptions(options.target, options.tolerance)
+        own = LawOptions(options.target, options.tolerance, budget=options.budget)
         law = following_law(following, bench.time + duration)
         yield from run_law(bench, law, replace(own, max_time=duration + own.proof + LEISURE))
 

@@ -58,7 +58,8 @@ class HoldOptions(Aim):
         An inertia wrong by 1 % is a height wrong by 1 um at 100 um, for as long as the hold lasts:
         so there are moves to estimate it by, and tolerance is left for drift between the moves.
         """
-        return BalanceOptions(self.target, FINER * self.tolerance, FIRST_MOVES, FIRST_TIME)
+        tolerance = FINER * self.tolerance
+        return BalanceOptions(self.target, tolerance, FIRST_MOVES, FIRST_TIME, budget=self.budget)
 
 
 def balance_and_hold(

@@ -32,6 +32,7 @@ from equipoise.dynamics.sag_trim import SAG_TERMS
 from equipoise.estimation.model_selection import reference_fit
 from equipoise.estimation.output_error.fit_estimate import spread_of
 from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.gaussian_length import Bounded, bounded_length
 from equipoise.maths.linalg import given
 from equipoise.model.arrays import Matrix3, Square, Vector3
@@ -72,6 +73,7 @@ class AssessOptions:
     require_offset: float | None = None  # m, from the target
     terms: tuple[str, ...] = ()  # torques to consider, beside the testbed's own
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
+    budget: Budget = UNLIMITED  # of the search
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,6 +128,7 @@ def fit_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Fi
         use_prior=True,
         hold=options.hold,
         typical=True,
+        budget=options.budget.renewed(),
     )
     unbalanced = replace(testbed, com_sd=np.full(3, UNKNOWN_COM))
     reference_fit.check_sensors(recording, unbalanced)

@@ -45,8 +45,9 @@ def metrics_over_hours(
     params = trajectory.Params(bed.disturbances, hold=held, use_prior=True)
     start, end = recording.span
     count = max(int((end - start) / seconds), 1)
-    found, times, left_out = list[Estimate](), list[float](), 0
-    for k in range(count):
+    parts = with_rows(recording, seconds, count)
+    found, times, left_out = list[Estimate](), list[float](), count - len(parts)
+    for k in parts:
         first = start + k * seconds
         measurement = metric_of(window(recording, first, min(first + seconds, end)), bed, params)
         if measurement is None:
@@ -59,6 +60,14 @@ def metrics_over_hours(
     t, com, sd = np.array(times, dtype=float), com.reshape(-1, 3), sd.reshape(-1, 3)
     wander = wander_of(t, com, sd) if len(t) >= FEWEST else None
     return OverHours(t, com, sd, left_out, wander)
+
+
+def with_rows(recording: Recording, seconds: float, count: int) -> list[int]:
+    """Return which of so many parts hold rows: behind a wrong stamp there may be any number."""
+    start = recording.span[0]
+    channels = [c.t for c in (recording.attitude, recording.rate) if c is not None]
+    part = np.floor((np.concatenate(channels) - start) / seconds)
+    return np.unique(part[(part >= 0) & (part < count)]).astype(int).tolist()
 
 
 def spread_of(measurement: Estimate) -> Vector3:

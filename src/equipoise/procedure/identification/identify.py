@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from equipoise.estimation.method_contract import Options, estimated, heeded
 from equipoise.estimation.methods.registry import METHODS
+from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording
@@ -28,11 +29,12 @@ class IdentifyOptions:
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     use_prior: bool = False  # the testbed's inertia and centre of mass as priors
     robust: bool = False
+    budget: Budget = UNLIMITED  # of the search
 
     @property
     def requested(self) -> Options:
         """Return the options of the method itself."""
-        return Options(self.terms, self.hold, self.use_prior, self.robust)
+        return Options(self.terms, self.hold, self.use_prior, self.robust, self.budget)
 
 
 COARSE_TO_FINE = ("equilibrium", "momentum_laboratory", "trajectory")

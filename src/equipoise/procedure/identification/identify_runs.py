@@ -6,6 +6,7 @@ usable by itself is left out, which the estimate says. The method is the traject
 
 from collections import Counter
 from collections.abc import Generator, Sequence
+from dataclasses import replace
 
 from equipoise.estimation.joint.joint_estimate import Run, estimate_jointly
 from equipoise.estimation.methods.trajectory import params_of
@@ -33,11 +34,12 @@ def identify_runs(
     check_distinct(recordings)
     params, runs = params_of(testbed, options.requested), list[Run]()
     for name, recording in zip(names_of(recordings), recordings, strict=True):
-        model, estimate = modelled(*sound(recording, testbed), params)
+        of_this = replace(params, budget=params.budget.renewed())
+        model, estimate = modelled(*sound(recording, testbed), of_this)
         runs.append(Run(name, recording.sha256, model, estimate))
         reasons = (Reason(StepReason.RUN_ESTIMATED, (name,)), *estimate.outcome.reasons)
         yield Step("estimate", recording.span[1], reasons, recording, estimate)
-    found = estimate_jointly(runs, testbed)
+    found = estimate_jointly(runs, testbed, params.budget.renewed())
     end = sum(recording.span[1] - recording.span[0] for recording in recordings)
     reasons, kind = found.verdict.reasons, "verify" if found.verdict.passed else "stop"
     yield Step(kind, end, reasons, estimate=found.estimate, verdict=found.verdict)

@@ -173,7 +173,8 @@ def direction(vector: Vector3) -> Vector3:
 def window_for(found: tuple[Hanging, ...], duration: float, posed: Posed) -> float:
     """Return the longest window (s) whose cubic leaves the quickest swing as it is."""
     period = float(np.median(np.diff(posed.motion.t)))
-    longest = max(LONGEST * duration, SHORTEST)
+    covered = min(duration, period * len(posed.motion.t))  # by rows: a gap holds none
+    longest = max(LONGEST * covered, SHORTEST)
     if not found:
         return longest
     quickest = max(each.swing.frequency for each in found)

@@ -9,6 +9,7 @@ from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns
+from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
 from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join
@@ -65,10 +66,13 @@ def as_if_stiff(testbed: Testbed) -> Testbed:
     return testbed.without("sag")
 
 
-def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowledge:
+def learn(
+    before: Knowledge | None, fresh: Recording, testbed: Testbed, allowed: Budget = UNLIMITED
+) -> Knowledge:
     """Return the knowledge with a fresh record added; the testbed's values are the prior."""
     testbed = as_if_stiff(testbed)
-    params = trajectory.Params(testbed.disturbances, use_prior=True)
+    budget = allowed.renewed()
+    params = trajectory.Params(testbed.disturbances, use_prior=True, budget=budget)
     if before is None:
         recording, guess = fresh, None
     else:
@@ -76,7 +80,8 @@ def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowl
         layout = trajectory.layout_of(recording, testbed, params)
         guess = carried(before.fitted.point, before.fitted.problem.layout, layout)
     fitted = trajectory.fit(recording, testbed, params, guess)
-    return Knowledge(recording, fitted, conclude(fitted, trajectory.METHOD, recording))
+    estimate = cut_short(conclude(fitted, trajectory.METHOD, recording), budget.unfinished)
+    return Knowledge(recording, fitted, estimate)
 
 
 def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:

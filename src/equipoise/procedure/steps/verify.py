@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from equipoise.control.plant.swing_estimates import drift_of
+from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.gaussian_length import SURE, Bounded
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.criterion import BALANCED
@@ -33,6 +34,7 @@ class Aim:
 
     target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
     tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
+    budget: Budget = field(default=UNLIMITED, kw_only=True)  # of each fit
 
 
 def probability_within(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Vector3:

@@ -49,7 +49,7 @@ from equipoise.estimation.parameters.retraction import (
     step_work_for,
 )
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.levenberg_marquardt import FIRST, FREE, NEAR, judge, promise, tolerated
+from equipoise.maths.levenberg_marquardt import FREE, NEAR, judge, promise, tolerated
 from equipoise.model.arrays import Floats, Ints
 
 HELD = 1e-9  # relative sd reported of a value that the user holds
@@ -89,6 +89,8 @@ class Ended(NamedTuple):
     cost: float
     converged: bool  # the step promises to lower twice the cost by less than is tolerated
     evaluations: int
+    damping: float  # with which it goes on, and by what that grows
+    growth: float
 
 
 @part
@@ -279,11 +281,15 @@ def local_for(posed: Posed, point: Floats) -> Local:
 
 
 @kernel
-def descend(posed: Posed, best: Local, most: int, normal: Floats, descent: Floats) -> Ended:
+def descend(
+    posed: Posed, best: Local, most: int, normal: Floats, descent: Floats,
+    damping: float, growth: float,
+) -> Ended:  # fmt: skip
     """Go from ``best`` to the optimum, in place, in at most so many evaluations.
 
     Write A and b of the first stretch's unknowns there, all jumps taken out. With one evaluation
-    this is the local model at a point.
+    this is the local model at a point. A descent goes on where it ended with the damping and growth
+    that it had; its first evaluation is then once more that of ``best``.
     """
     n, rows = posed.slots.shape[0], 3 * (best.left_q.shape[0] + best.left_w.shape[0])
     trial = local_for(posed, best.point)
@@ -292,7 +298,7 @@ def descend(posed: Posed, best: Local, most: int, normal: Floats, descent: Float
     work, step_work = pass_for(posed.columns.kinds.shape[0], n), step_work_for(n)
     chain, step, x = chain_for(posed.cuts, n), np.empty(n), np.empty(n)
     here, behind = np.empty_like(best.point), np.empty_like(best.point)
-    cost, damping, growth, promised = np.inf, FIRST, 2.0, np.inf
+    cost, promised = np.inf, np.inf
     evaluations, converged = 0, False
     while evaluations < most:
         evaluations += 1
@@ -318,4 +324,4 @@ def descend(posed: Posed, best: Local, most: int, normal: Floats, descent: Float
             break
     if np.isfinite(cost):
         report(posed, best, x, chain, normal, descent)
-    return Ended(cost, converged, evaluations)
+    return Ended(cost, converged, evaluations, damping, growth)
