@@ -49,7 +49,7 @@ def test_a_jump_anywhere_in_a_step_keeps_its_moments_in_time(tau):
     late, spread = (by_name(found, n, 1 + FINE) for n in ("departure_x_1", "spread_departure_x_1"))
     x = (tau**2 - 1 / 12) / 2
     drawn = 8e-3 * FINE + tau * late + x * spread
-    true = np.where(FINE - 0.5 > tau, 8e-3, 0.0)
+    true = np.where(tau < FINE - 0.5, 8e-3, 0.0)
     for weight in (1.0, FINE):
         moments = [np.trapezoid(weight * d, FINE) for d in (drawn, true)]
         assert moments[0] == pytest.approx(moments[1], abs=1e-6)

@@ -29,6 +29,7 @@ from equipoise.estimation.parameters.observability import (
     Visibility,
     examine_unheld,
     natural_sizes,
+    without_multiples,
 )
 from equipoise.model.arrays import Bools, Floats, Ints, Square
 from equipoise.model.estimate import Estimate
@@ -88,6 +89,7 @@ def visibility_of(joint: Joint) -> Visibility:
     stretched[BODIES] = joint.x[BODIES] / whole.size[BODIES]
     stretched /= np.linalg.norm(stretched)
     view = examine_unheld(whole.information, stretched, whole.size, whole.names, whole.held)
+    view = without_multiples(view, whole.size, BODIES.start)
     hidden, covariance = view.hidden[:n].copy(), view.covariance[:n, :n]
     if not joint.shared.scale_open:
         return Visibility(covariance, hidden, view.unobservable, view.scale_open, view.unseen[:n])

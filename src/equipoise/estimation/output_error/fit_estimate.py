@@ -36,6 +36,7 @@ from equipoise.estimation.parameters.observability import (
     examine_unheld,
     natural_sizes,
     scale_of,
+    without_multiples,
 )
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.maths.attitude import logarithm, to_matrix
@@ -277,6 +278,7 @@ def visibility_of(fitted: Fitted) -> Visibility:
     view = examine_unheld(
         information, scale_of(values, size), size, layout.names, problem.prior.held
     )
+    view = without_multiples(view, size)
     view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
     if is_tilt_open(fitted, view):
         view = without_com(view, size)

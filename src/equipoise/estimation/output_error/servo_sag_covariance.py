@@ -13,7 +13,8 @@ cost, masses that hang by one sd move the optimum by
 Of the first moment m s u (u.n), the part parallel to gravity makes no torque; it is all there is
 for equal masses on three orthogonal rails. What others make is elastic sag: near level that of a
 centre of mass as much higher or lower, s (m_z - m_x) / m of a platform's mass m. It is taken up
-where that is sought by its own name. The part with tau damps the motion (it is where a damper takes its energy):
+where that is sought by its own name. The part with tau damps the motion (it is where a damper takes
+its energy):
 
     tau_B = m s tau g (u.(w x n)) u x n = -m s tau g (n x u)(n x u)^T w
 

@@ -2,10 +2,13 @@
 
 Each coordinate is measured in a size natural to it (a moment of inertia in its own mean size, a
 centre of mass in its own distance, ...). A direction along which one sd exceeds half of that size
-is unobservable; every parameter with a part in such a direction has an infinite interval.
+is unobservable; every parameter with a part in such a direction has an infinite interval. So has
+what is known as a multiple of one that has: a product of inertia of an axis whose moment is not
+observable; without any moment, all that makes torque. A line through the place where the search
+ended would tell these firmly, as multiples of a number that means nothing.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,6 +32,7 @@ PART = 1e-3  # chosen: a smaller component of an unseen direction is rounding
 LOST = 0.1  # natural sizes, chosen: by so much an unseen direction must move what it hides
 DISTANCE = 1e-5  # m, a centre of mass that is not worth calling an offset
 ALONG = 0.9  # chosen: cosine beyond which an unseen direction is the scale
+PRODUCTS = ((0, 1), (0, 2), (1, 2))  # the axes of xy, xz and yz
 OPEN = Reason(Unobservable.SCALE)
 
 
@@ -95,6 +99,22 @@ def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, 
             others.append(direction * size)
     lost: Floats = np.array(others).reshape(-1, len(size)).T
     return Visibility(covariance, hidden, tuple(unobservable), scale_open, lost)
+
+
+def without_multiples(view: Visibility, size: Floats, first: int = JP.start) -> Visibility:
+    """Return a view in which what is known as a multiple of an unseen moment is hidden, too.
+
+    ``first`` is where the six of J_P begin, the three of com behind them.
+    """
+    lost = view.hidden[first : first + 3]
+    more = np.zeros_like(view.hidden)
+    for k, pair in enumerate(PRODUCTS, first + 3):
+        more[k] = bool(lost[list(pair)].any())
+    if lost.all():
+        more[first + 6 : first + 9] = True
+    more &= ~view.hidden
+    unseen = np.hstack([view.unseen, np.diag(size)[:, more]])
+    return replace(view, hidden=view.hidden | more, unseen=unseen)
 
 
 def examine_unheld(
