@@ -1,4 +1,4 @@
-"""When a mass departed and arrived between the rows of its track, as two unknowns of each travel.
+"""How a mass travelled between the rows of its track, as unknowns of each travel.
 
 A track is straight between rows; the mass was not. It departed somewhere between two rows, and
 arrived somewhere between two others: late by tau_1 and tau_2,
@@ -20,7 +20,16 @@ travel at v leave no slack.
 Travels with short pauses between are one: steps of a stepper, which keep their phase to the rows or
 change it slowly. In a record of very many travels pauses count as short until ``MOST`` are left.
 
-Cannot see a speed that changes within a step but by its mean time.
+Nor was the speed even between rows. A third unknown is how far the path bends as a smooth one,
+
+    d(t) = d_log(t) + c [d_smooth(t) - d_log(t)]
+
+with d_smooth the cubic of each step whose slopes at the rows are the mean speeds across them, zero
+where the mass stood on either side or turned: c is 0 of a motor at even speed, 1 of a smooth ramp. One step
+from rest to rest may also be over in any part of itself; c is then up to 5/2 (the mass jumps half
+way through), which the spread of the times of its parts, (1/12 - c/30) dt^2, shows.
+
+Cannot see a path that bends otherwise between rows.
 """
 
 from collections.abc import Sequence
@@ -29,6 +38,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
+from scipy.interpolate import CubicHermiteSpline
 
 from equipoise.actuators.lags import is_command, slowness
 from equipoise.actuators.stops import MassError, is_travelling, travels
@@ -36,9 +47,13 @@ from equipoise.model.arrays import Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
-DEPARTURE, ARRIVAL = "departure", "arrival"
+DEPARTURE, ARRIVAL, SMOOTHNESS = "departure", "arrival", "smoothness"
 PAUSE = 1.0  # s, chosen: far below the periods of a platform
 MOST = 12  # travels of one mass, chosen: each costs two columns of the propagator
+PARTS = 4  # of a step, chosen: the cubic as straight pieces, of the right speed in their middle
+TAIL = 2  # rows before and behind a travel, chosen: there a smooth one is slower than ``STILL``
+CORNER = 0.05  # of the speed on the other side of a row, chosen: less is standing still
+SUDDEN = 2.5  # smoothness of one step in which the mass jumps half way
 FASTER = 1.1  # times the stated speed, chosen: beyond it that says nothing of a travel
 
 
@@ -51,6 +66,7 @@ class TimedTravel(NamedTuple):
     arrival_sd: float  # s
     path: float  # m
     slack: Series1  # s, of each of its steps
+    smoothness_sd: float  # -
 
     @property
     def is_one_step(self) -> bool:
@@ -94,7 +110,16 @@ def one_timed(
     sd = slack / np.sqrt(12)
     arrival_sd = float(np.hypot(sd[-1], later))
     last, path = first + len(steps), float(ways.sum())
-    return TimedTravel(first, last, float(sd[0]), arrival_sd, path, slack)
+    smoothness = smoothness_sd(steps, under_way)
+    return TimedTravel(first, last, float(sd[0]), arrival_sd, path, slack, smoothness)
+
+
+def smoothness_sd(steps: Series1, under_way: Series1) -> float:
+    """Return one sd of how far a travel bends; of one step it may be under way for any part."""
+    if len(steps) > 1:
+        return 1.0
+    least = min(float(under_way[0] / steps[0]), 1.0)
+    return SUDDEN * (1 - least**2) / np.sqrt(3)
 
 
 def unresolved_steps(track: Samples, masses: Sequence[SlidingMass]) -> NDArray[np.bool_]:
@@ -106,14 +131,53 @@ def unresolved_steps(track: Samples, masses: Sequence[SlidingMass]) -> NDArray[n
     return found
 
 
+def bent_rows(track: Samples, travel: TimedTravel) -> slice:
+    """Return the rows between which a travel bends: a smooth one begins and ends unnoticed."""
+    return slice(max(travel.first - TAIL, 0), travel.last + 1 + TAIL)
+
+
+def fine_times(track: Samples, travel: TimedTravel) -> Series1:
+    """Return the rows between which a travel bends, and ``PARTS`` - 1 times between each two."""
+    t = track.t[bent_rows(track, travel)]
+    return np.interp(np.arange((len(t) - 1) * PARTS + 1) / PARTS, np.arange(len(t)), t)
+
+
+def slopes(t: Series1, d: Series1) -> Series1:
+    """Return the speed of a smooth path at its rows, m/s: none where it stops, starts or turns."""
+    steps, speeds = np.diff(t), np.diff(d) / np.diff(t)
+    before, after = speeds[:-1], speeds[1:]
+    slow, fast = np.sort(np.abs([before, after]), axis=0)
+    passing = (before * after > 0) & (slow > CORNER * fast)
+    across = np.where(passing, (d[2:] - d[:-2]) / (steps[:-1] + steps[1:]), 0.0)
+    return np.concatenate([[0.0], across, [0.0]])
+
+
+def bend(t: Series1, track: Samples, i: int, travel: TimedTravel) -> Series1:
+    """Return d_smooth - d_log of mass i in a travel at times ``t``, m."""
+    rows = bent_rows(track, travel)
+    at, d = track.t[rows], track.values[rows, i]
+    inside = np.clip(t, at[0], at[-1])
+    return CubicHermiteSpline(at, d, slopes(at, d))(inside) - np.interp(inside, at, d)
+
+
+def bends_far(track: Samples, i: int, travel: TimedTravel, least: float) -> bool:
+    """Say whether the time integral of the bend, m s, exceeds ``least`` anywhere in a travel."""
+    t = fine_times(track, travel)
+    area = cumulative_trapezoid(bend(t, track, i, travel), t)
+    return travel.smoothness_sd * float(np.abs(area).max()) > least
+
+
 def open_travels(track: Samples, i: int, mass: SlidingMass, least: float) -> dict[int, TimedTravel]:
-    """Return by number the travels of one mass whose times are open by so much that it shows."""
-    found = timed(track.t, track.values[:, i], mass.speed)
-    return {
-        k + 1: travel
-        for k, travel in enumerate(found)
-        if mass.mass * travel.path * max(travel.departure_sd, travel.arrival_sd) > least
-    }
+    """Return by number the travels of one mass that are open by so much that it shows."""
+    found: dict[int, TimedTravel] = {}
+    for k, travel in enumerate(timed(track.t, track.values[:, i], mass.speed)):
+        late = travel.path * max(travel.departure_sd, travel.arrival_sd) > least / mass.mass
+        known = {} if late else {"departure_sd": 0.0, "arrival_sd": 0.0}
+        if not bends_far(track, i, travel, least / mass.mass):
+            known["smoothness_sd"] = 0.0
+        if late or "smoothness_sd" not in known:
+            found[k + 1] = travel._replace(**known)
+    return found
 
 
 def reach(sd: float) -> float:
@@ -122,8 +186,9 @@ def reach(sd: float) -> float:
 
 
 def bends(track: Samples, found: dict[int, TimedTravel]) -> list[Series1]:
-    """Return the times at which the effects of open times bend."""
-    return [
+    """Return the times at which the effects of what is open of travels bend."""
+    fine = [fine_times(track, travel) for travel in found.values() if travel.smoothness_sd > 0]
+    return fine + [
         track.t[travel.first : travel.last + 1] + sign * reach(sd)
         for travel in found.values()
         for sd in (travel.departure_sd, travel.arrival_sd)
@@ -141,7 +206,7 @@ def effect(t: Series1, track: Samples, i: int, travel: TimedTravel, sd: float) -
 def travel_errors(
     t: Series1, track: Samples, i: int, name: str, found: dict[int, TimedTravel]
 ) -> list[MassError]:
-    """Return the unknown times of the travels of mass i, with their effect at times ``t``."""
+    """Return the unknown times and paths of the travels of mass i: their effect at times ``t``."""
     errors: list[MassError] = []
     for k, travel in found.items():
         share = np.interp(t, track.t[[travel.first, travel.last]], [0.0, 1.0])
@@ -153,4 +218,7 @@ def travel_errors(
             for end, sd, weight in ends
             if sd > 0
         ]
+        if travel.smoothness_sd > 0:
+            response = [(i, bend(t, track, i, travel))]
+            errors.append(MassError(f"{SMOOTHNESS}_{name}_{k}", travel.smoothness_sd, response))
     return errors
