@@ -24,10 +24,10 @@ Nor was the speed even between rows. A third unknown is how far the path bends a
 
     d(t) = d_log(t) + c [d_smooth(t) - d_log(t)]
 
-with d_smooth the cubic of each step whose slopes at the rows are the mean speeds across them, zero
-where the mass stood on either side or turned: c is 0 of a motor at even speed, 1 of a smooth ramp. One step
-from rest to rest may also be over in any part of itself; c is then up to 5/2 (the mass jumps half
-way through), which the spread of the times of its parts, (1/12 - c/30) dt^2, shows.
+with d_smooth the cubic of each step whose slopes at the rows are the mean speeds across them: c is
+0 of a motor at even speed, 1 of a smooth ramp. At v a mass goes straight. Where it stood or went at
+v in the next step, the cubic has the slope of that; a step between two such bends evenly about its
+mean time, which is open already, and has no c.
 
 Cannot see a path that bends otherwise between rows.
 """
@@ -39,7 +39,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
-from scipy.interpolate import CubicHermiteSpline
 
 from equipoise.actuators.lags import is_command, slowness
 from equipoise.actuators.stops import MassError, is_travelling, travels
@@ -53,7 +52,7 @@ MOST = 12  # travels of one mass, chosen: each costs two columns of the propagat
 PARTS = 4  # of a step, chosen: the cubic as straight pieces, of the right speed in their middle
 TAIL = 2  # rows before and behind a travel, chosen: there a smooth one is slower than ``STILL``
 CORNER = 0.05  # of the speed on the other side of a row, chosen: less is standing still
-SUDDEN = 2.5  # smoothness of one step in which the mass jumps half way
+SMOOTH = 1.0  # chosen: one sd of c
 FASTER = 1.1  # times the stated speed, chosen: beyond it that says nothing of a travel
 
 
@@ -67,6 +66,7 @@ class TimedTravel(NamedTuple):
     path: float  # m
     slack: Series1  # s, of each of its steps
     smoothness_sd: float  # -
+    speed: float  # m/s, the greatest of the mass
 
     @property
     def is_one_step(self) -> bool:
@@ -110,16 +110,7 @@ def one_timed(
     sd = slack / np.sqrt(12)
     arrival_sd = float(np.hypot(sd[-1], later))
     last, path = first + len(steps), float(ways.sum())
-    smoothness = smoothness_sd(steps, under_way)
-    return TimedTravel(first, last, float(sd[0]), arrival_sd, path, slack, smoothness)
-
-
-def smoothness_sd(steps: Series1, under_way: Series1) -> float:
-    """Return one sd of how far a travel bends; of one step it may be under way for any part."""
-    if len(steps) > 1:
-        return 1.0
-    least = min(float(under_way[0] / steps[0]), 1.0)
-    return SUDDEN * (1 - least**2) / np.sqrt(3)
+    return TimedTravel(first, last, float(sd[0]), arrival_sd, path, slack, SMOOTH, speed)
 
 
 def unresolved_steps(track: Samples, masses: Sequence[SlidingMass]) -> NDArray[np.bool_]:
@@ -142,22 +133,30 @@ def fine_times(track: Samples, travel: TimedTravel) -> Series1:
     return np.interp(np.arange((len(t) - 1) * PARTS + 1) / PARTS, np.arange(len(t)), t)
 
 
-def slopes(t: Series1, d: Series1) -> Series1:
-    """Return the speed of a smooth path at its rows, m/s: none where it stops, starts or turns."""
+def end_slopes(t: Series1, d: Series1, greatest: float) -> tuple[Series1, Series1]:
+    """Return by how much a smooth path is faster than each step at its begin and its end, m/s."""
     steps, speeds = np.diff(t), np.diff(d) / np.diff(t)
+    straight = (np.abs(speeds) > greatest / FASTER) & (np.abs(speeds) < greatest * FASTER)
     before, after = speeds[:-1], speeds[1:]
     slow, fast = np.sort(np.abs([before, after]), axis=0)
-    passing = (before * after > 0) & (slow > CORNER * fast)
-    across = np.where(passing, (d[2:] - d[:-2]) / (steps[:-1] + steps[1:]), 0.0)
-    return np.concatenate([[0.0], across, [0.0]])
+    alike = before * after > 0
+    passing = alike & (slow > CORNER * fast) & ~(straight[:-1] | straight[1:])
+    across = (d[2:] - d[:-2]) / (steps[:-1] + steps[1:])
+    bent = ~straight & (np.append(passing, False) | np.append(False, passing))
+    first = np.append(0.0, np.where(passing, across, alike * before)) - speeds
+    last = np.append(np.where(passing, across, alike * after), 0.0) - speeds
+    return bent * first, bent * last
 
 
 def bend(t: Series1, track: Samples, i: int, travel: TimedTravel) -> Series1:
-    """Return d_smooth - d_log of mass i in a travel at times ``t``, m."""
+    """Return d_smooth - d_log of mass i in a travel at times ``t``, m: Hermite's cubics."""
     rows = bent_rows(track, travel)
     at, d = track.t[rows], track.values[rows, i]
-    inside = np.clip(t, at[0], at[-1])
-    return CubicHermiteSpline(at, d, slopes(at, d))(inside) - np.interp(inside, at, d)
+    first, last = end_slopes(at, d, travel.speed)
+    k = np.clip(np.searchsorted(at, t, side="right") - 1, 0, len(first) - 1)
+    length = np.diff(at)[k]
+    u = np.clip((t - at[k]) / length, 0.0, 1.0)
+    return length * u * (1 - u) * (first[k] * (1 - u) - last[k] * u)
 
 
 def bends_far(track: Samples, i: int, travel: TimedTravel, least: float) -> bool:
