@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.mass_errors import mass_errors, unit_of
-from equipoise.actuators.travel_times import MOST, merged_travels, timed, unresolved_steps
+from equipoise.actuators.travel_times import MOST, bend, merged_travels, timed, unresolved_steps
 from equipoise.model.recording import Samples
+from tests.oracle.mujoco_bench import smooth
 from tests.support.builders import sliding_masses
 
 SPEED = 0.01  # m/s
@@ -65,13 +66,13 @@ def test_times_are_unknowns_by_hand():
     """4 mm, then 6 mm: a quarter through the travel three quarters of being late is departure's."""
     track = Samples(np.arange(6.0), np.array([[0, 0, 4, 10, 10, 10]]).T * 1e-3)
     found = mass_errors(track, (X,))
-    assert found.names == ("departure_x_1", "arrival_x_1")
-    assert [unit_of(name) for name in found.names] == ["s", "s"]
-    assert found.sd == pytest.approx([0.6 * EVEN, 0.4 * EVEN])
+    assert found.names == ("departure_x_1", "arrival_x_1", "smoothness_x_1")
+    assert [unit_of(name) for name in found.names] == ["s", "s", "1"]
+    assert found.sd == pytest.approx([0.6 * EVEN, 0.4 * EVEN, 1.0])
     late = found.response
     at = [np.interp(1.5, late.t, late.values[:, k]) for k in (0, 1)]
     assert at == pytest.approx([-4e-3 * 0.75, -4e-3 * 0.25])
-    total = np.trapezoid(late.values, late.t, axis=0)
+    total = np.trapezoid(late.values[:, :2], late.t, axis=0)
     # 10 mm late by 1 s; but for bends of a product of straight lines, straight between knots
     assert total.sum() == pytest.approx(-0.010, rel=1e-3)
     assert not np.interp([0.0, 0.2, 4.9], late.t, late.values[:, 0]).any()
@@ -82,6 +83,39 @@ def test_a_jump_of_a_record_is_one_unknown():
     track = Samples(np.arange(4.0), np.array([[0, 0, 8, 8]]).T * 1e-3)
     assert mass_errors(track, (X,)).names == ("departure_x_1",)
     assert mass_errors(track, (X,), least=1.0).names == ()
+
+
+def bent(d_mm, at):
+    """Return by how much the smooth path is ahead of the straight one, mm; rows every 1 s."""
+    t = np.arange(float(len(d_mm)))
+    track = Samples(t, np.array([d_mm]).T * 1e-3)
+    return 1e3 * bend(np.array(at), track, 0, one(t, d_mm))
+
+
+def test_a_smooth_path_by_hand():
+    """4 mm, then 6 mm, 5 mm/s between them: u (1 - u) [(first - v) (1 - u) - (last - v) u]."""
+    assert bent([0, 0, 4, 10, 10, 10], [1.0, 1.5, 2.0, 2.5, 3.0, 3.5]) == pytest.approx(
+        [0, -0.625, 0, 0.625, 0, 0]
+    )
+
+
+@pytest.mark.parametrize("d_mm", [[0, 0, 4, 14, 24, 30, 30], [0, 0, 8, 8, 8, 8, 8]])
+def test_what_goes_at_its_greatest_speed_or_in_one_step_goes_straight(d_mm):
+    track = Samples(np.arange(7.0), np.array([d_mm]).T * 1e-3)
+    assert not np.any(bent(d_mm, np.linspace(0, 6, 61)))
+    assert not any(name.startswith("smoothness") for name in mass_errors(track, (X,)).names)
+
+
+def test_a_smooth_ramp_is_what_the_bend_adds_to_its_rows():
+    """30 mm within 5 s as 10 s^3 - 15 s^4 + 6 s^5: less than a sixth of the straight path's error is left."""
+    t, fine = np.arange(0.0, 9.0, 0.5), np.linspace(0.0, 8.5, 500)
+    ramp = [30.0 * smooth(np.clip((at - 1.8) / 5.0, 0, 1)) for at in (t, fine)]
+    track = Samples(t, ramp[0][:, None] * 1e-3)
+    (travel,) = timed(t, track.values[:, 0], 0.02)
+    off = ramp[1] - np.interp(fine, t, ramp[0])
+    left = off - 1e3 * bend(fine, track, 0, travel)
+    assert np.abs(left).max() < 0.2 * np.abs(off).max()
+    assert 6 * np.sqrt(np.mean(left**2)) < np.sqrt(np.mean(off**2))
 
 
 def test_masses_have_times_of_their_own():
