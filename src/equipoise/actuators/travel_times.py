@@ -159,7 +159,7 @@ def bend(t: Series1, track: Samples, i: int, travel: TimedTravel) -> Series1:
     return length * u * (1 - u) * (first[k] * (1 - u) - last[k] * u)
 
 
-def bends_far(track: Samples, i: int, travel: TimedTravel, least: float) -> bool:
+def bends_openly(track: Samples, i: int, travel: TimedTravel, least: float) -> bool:
     """Say whether the time integral of the bend, m s, exceeds ``least`` anywhere in a travel."""
     t = fine_times(track, travel)
     area = cumulative_trapezoid(bend(t, track, i, travel), t)
@@ -172,7 +172,7 @@ def open_travels(track: Samples, i: int, mass: SlidingMass, least: float) -> dic
     for k, travel in enumerate(timed(track.t, track.values[:, i], mass.speed)):
         late = travel.path * max(travel.departure_sd, travel.arrival_sd) > least / mass.mass
         known = {} if late else {"departure_sd": 0.0, "arrival_sd": 0.0}
-        if not bends_far(track, i, travel, least / mass.mass):
+        if not bends_openly(track, i, travel, least / mass.mass):
             known["smoothness_sd"] = 0.0
         if late or "smoothness_sd" not in known:
             found[k + 1] = travel._replace(**known)

@@ -1,4 +1,4 @@
-"""A rod (J 1 : 87) whose masses travel along smooth ramps between the rows, in records by MuJoCo."""
+"""A rod (J 1 : 87) whose masses travel smoothly between the rows, in records by MuJoCo."""
 
 import functools
 

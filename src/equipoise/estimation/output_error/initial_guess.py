@@ -51,9 +51,7 @@ def start(
     )  # fmt: skip
 
 
-def as_measured(
-    recording: Recording, testbed: Testbed, first: float, point: Unknowns
-) -> Unknowns:
+def as_measured(recording: Recording, testbed: Testbed, first: float, point: Unknowns) -> Unknowns:
     """Return a point with the attitude and rate that are measured; ``first``: when it begins, s.
 
     Of a slender body the first momentum says little of the rate: its error over the least moment is

@@ -55,8 +55,13 @@ METHOD = "trajectory"
 CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to the end
 LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start is tried
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
-FOLLOWED = 0.05  # rad rms, chosen: a part is longer than the one before by what is predicted so well
-GROWTH, SLOWEST = 2.0, 1.06  # chosen: times that a part is longer than the one before, at most; least
+FOLLOWED = (
+    0.05  # rad rms, chosen: a part is longer than the one before by what is predicted so well
+)
+GROWTH, SLOWEST = (
+    2.0,
+    1.06,
+)  # chosen: times that a part is longer than the one before, at most; least
 SHORTEST = 0.02  # of the record, the least part to begin with
 FEW = 1 / 16  # of a record on which other starts are lost, chosen
 FEW_SWINGS = 1 / 32  # of a long record, chosen: 56 s of half an hour
