@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.mass_errors import mass_errors, unit_of
+from equipoise.actuators.travel_errors import bend
 from equipoise.model.recording import Samples
 from tests.support.builders import sliding_masses
 
@@ -29,13 +30,14 @@ def test_ends_of_a_measured_travel_are_unknowns_by_hand():
     """4 mm, then 6 mm at 10 mm/s: 0.6 s of the first step are open, 0.4 s of the second."""
     found = mass_errors(track_of([0, 0, 4, 10, 10, 10]), (X,))
     ends = "departure_x_1", "arrival_x_1"
-    assert found.names == (ends[0], f"spread_{ends[0]}", ends[1], f"spread_{ends[1]}")
-    assert [unit_of(name) for name in found.names] == ["s"] * 4
-    assert found.sd == pytest.approx([0.6 * EVEN, 0.36 * SPREAD, 0.4 * EVEN, 0.16 * SPREAD])
+    names = ends[0], f"spread_{ends[0]}", ends[1], f"spread_{ends[1]}", "smoothness_x_1"
+    assert found.names == names
+    assert [unit_of(name) for name in found.names] == ["s"] * 4 + ["1"]
+    assert found.sd == pytest.approx([0.6 * EVEN, 0.36 * SPREAD, 0.4 * EVEN, 0.16 * SPREAD, 1.0])
     for start, way, end in ((1.0, 4e-3, ends[0]), (2.0, 6e-3, ends[1])):
         late = by_name(found, end, start + FINE)
         assert late.min() == pytest.approx(-2 * way)
-        assert np.trapezoid(late, FINE) == pytest.approx(-way)
+        assert np.trapezoid(late, FINE) == pytest.approx(-way, rel=1e-6)
         assert not by_name(found, end, np.array([start - 0.1, start + 1.1])).any()
 
 
@@ -55,16 +57,16 @@ def test_a_jump_anywhere_in_a_step_keeps_its_moments_in_time(tau):
         assert moments[0] == pytest.approx(moments[1], abs=1e-6)
 
 
-def test_steps_of_a_stepper_are_late_by_degrees():
-    """Three jumps of 2 mm in 0.1 s each: what departure has no share in is arrival's."""
-    t = np.array([0.0, 1.0, 1.1, 1.2, 1.3, 2.0])
-    d = np.array([[0.0, 0, 2, 4, 6, 6]]).T * 1e-3
-    found = mass_errors(Samples(t, d), (X,))
-    assert found.names == ("departure_x_1", "arrival_x_1")
+def test_longer_travels_are_late_by_degrees_by_hand():
+    """4, 5 and 6 mm: a sixth through the travel five sixths of being late are departure's."""
+    found = mass_errors(track_of([0, 0, 4, 9, 15, 15, 15]), (X,))
+    assert found.names[:2] == ("departure_x_1", "arrival_x_1")
+    at = [by_name(found, name, np.array([1.5]))[0] for name in found.names[:2]]
+    assert at == pytest.approx([-4e-3 * 5 / 6, -4e-3 / 6])
     late = found.response
-    total = np.trapezoid(late.values, late.t, axis=0)
-    # 6 mm late by 1 s; but for bends of a product of straight lines, straight between knots
-    assert total.sum() == pytest.approx(-0.006, rel=0.02)
+    total = np.trapezoid(late.values[:, :2], late.t, axis=0)
+    # 15 mm late by 1 s; but for bends of a product of straight lines, straight between knots
+    assert total.sum() == pytest.approx(-0.015, rel=2e-3)
 
 
 def test_a_jump_is_late_as_a_whole():
@@ -78,3 +80,40 @@ def test_masses_have_times_of_their_own():
     """Two masses that travel together depart each on its own."""
     found = mass_errors(track_of([0, 0, 8, 8], [0, 0, 5, 5]), (X, Y))
     assert found.owner.tolist() == [[0, 0], [0, 1], [1, 2], [1, 3]]
+
+
+# --- how smooth a path is -------------------------------------------------------------------------
+
+
+def bent(d_mm, at):
+    """Return by how much the smooth path is ahead of the straight one, mm; rows every 1 s."""
+    t = np.arange(float(len(d_mm)))
+    return 1e3 * bend(np.array(at), t, np.array(d_mm) * 1e-3, 0.010)
+
+
+def test_a_smooth_path_by_hand():
+    """4 mm, then 6 mm, 5 mm/s between them: u (1 - u) [(first - v) (1 - u) - (last - v) u]."""
+    assert bent([0, 0, 4, 10, 10, 10], [1.0, 1.5, 2.0, 2.5, 3.0, 3.5]) == pytest.approx(
+        [0, -0.625, 0, 0.625, 0, 0]
+    )
+
+
+@pytest.mark.parametrize("d_mm", [[0, 0, 4, 14, 24, 30, 30], [0, 0, 8, 8, 8, 8, 8]])
+def test_what_goes_at_its_greatest_speed_or_in_one_step_goes_straight(d_mm):
+    assert not np.any(bent(d_mm, np.linspace(0, 6, 61)))
+    assert not any(n.startswith("smoothness") for n in mass_errors(track_of(d_mm), (X,)).names)
+
+
+def test_a_smooth_ramp_is_what_the_bend_adds_to_its_rows():
+    """30 mm in 5 s, 10 s^3 - 15 s^4 + 6 s^5: a fifth of a straight path's error is left."""
+    t, fine = np.arange(0.0, 9.0, 0.5), np.linspace(0.0, 8.5, 500)
+    ramp = [30.0 * smooth(np.clip((at - 1.8) / 5.0, 0, 1)) for at in (t, fine)]
+    off = ramp[1] - np.interp(fine, t, ramp[0])
+    left = off - 1e3 * bend(fine, t, ramp[0] * 1e-3, 0.02)
+    assert np.abs(left).max() < 0.2 * np.abs(off).max()
+    assert 6 * np.sqrt(np.mean(left**2)) < np.sqrt(np.mean(off**2))
+
+
+def smooth(s):
+    """Return a share of a way that is gone smoothly."""
+    return 10 * s**3 - 15 * s**4 + 6 * s**5

@@ -25,7 +25,13 @@ from equipoise.actuators.drive_errors import (
 from equipoise.actuators.lags import LAG, command_columns, kinds_of, lag_errors, lag_times, sags
 from equipoise.actuators.lost_motion import command_times
 from equipoise.actuators.stops import MassError, stop_errors
-from equipoise.actuators.travel_errors import ARRIVAL, DEPARTURE, SPREAD, open_times
+from equipoise.actuators.travel_errors import (
+    ARRIVAL,
+    DEPARTURE,
+    SMOOTHNESS,
+    SPREAD,
+    open_times,
+)
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -46,7 +52,7 @@ def unit_of(name: str) -> str:
     """Return the SI unit of an unknown: of a time, a gain, a rail across; else a displacement's."""
     if name.startswith(LAG):
         return "s"
-    units = {GAIN: "1", ACROSS: "rad", DEPARTURE: "s", ARRIVAL: "s", SPREAD: "s"}
+    units = {GAIN: "1", ACROSS: "rad", DEPARTURE: "s", ARRIVAL: "s", SPREAD: "s", SMOOTHNESS: "1"}
     return units.get(name.split("_")[0], "m")
 
 

@@ -4,9 +4,10 @@ Late by tau_1 at its departure and by tau_2 at its arrival (``travel_times``: ho
 
     d(t) = d_log(t) - tau_1 e_1(t) - tau_2 e_2(t)
 
-A mass that was measured was between two rows where these say, however late within the step. So e is
-of the first or the last step alone, dd / dt on average; a triangle of twice that height comes
-nearest to a jump anywhere in the step: its third moments in time are wrong by 0.02 dd dt^3 rms.
+A mass that was measured in one step or two was between rows where these say, however late within
+the step. So e is of the first or the last step alone, dd / dt on average; a triangle of twice that
+height comes nearest to a jump anywhere in the step: its third moments in time are wrong by
+0.02 dd dt^3 rms.
 
 A jump at tau, drawn as a ramp over the step, has another second moment in time, too, so that the
 platform turns by another angle within the step where its rate is the same behind. Each open step
@@ -15,31 +16,45 @@ has one unknown more, mass that passes from its first half to its second or back
     d(t) = d_log(t) +- x 8 dd / dt,   x = (tau^2 - slack^2 / 12) / (2 dt)
     sd = slack^2 / (2 dt sqrt(180))   for tau spread evenly over the slack
 
-Steps of a stepper, all of them open, and a command that the mass reaches behind its last row are
-late by degrees, s going from 0 to 1 from departure to arrival:
+A longer travel may be one of a stepper, at any phase to the rows, and a command may be reached
+behind its last row: these are late by degrees, s going from 0 to 1 from departure to arrival:
 
     d(t) = d_log(t - tau) = d_log(t) - tau d_log'(t) + ...,   tau = (1 - s) tau_1 + s tau_2
 
-Cannot see a speed that changes within a step but by these moments.
+Nor was the speed even between rows. One unknown more is how smooth the path is,
+
+    d(t) = d_log(t) + c [d_smooth(t) - d_log(t)]
+
+with d_smooth the cubic of each step whose slopes at the rows are the mean speeds across them: c is
+0 of a motor at even speed, 1 of a smooth ramp. At v a mass goes straight. Where it stood or went at
+v in the next step, the cubic has the slope of that; a step between two such bends evenly about its
+mean time, which is open already, and has no c.
+
+Cannot see a path that bends otherwise between rows.
 """
 
 from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from equipoise.actuators.lags import slowness
-from equipoise.actuators.travel_times import TimedTravel, timed
+from equipoise.actuators.travel_times import FASTER, TimedTravel, timed
 from equipoise.model.arrays import Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
-DEPARTURE, ARRIVAL, SPREAD = "departure", "arrival", "spread"
+DEPARTURE, ARRIVAL, SPREAD, SMOOTHNESS = "departure", "arrival", "spread", "smoothness"
 QUARTERS = np.linspace(0.0, 1.0, 5)  # of a step
+PARTS = 4  # of a step, chosen: the cubic as straight pieces, of the right speed in their middle
+TAIL = 2  # rows before and behind a travel, chosen: there a smooth one is slower than ``STILL``
+CORNER = 0.05  # of the speed on the other side of a row, chosen: less is standing still
+SMOOTH = 1.0  # chosen: one sd of c
 
 
 class OpenTime(NamedTuple):
-    """An unknown of a travel, s, and the displacement by it, m/s: straight between its corners."""
+    """An unknown of a travel and the displacement by it, m: straight between its corners."""
 
     name: str
     sd: float
@@ -54,9 +69,13 @@ class OpenTime(NamedTuple):
 def open_times(track: Samples, i: int, mass: SlidingMass, least: float) -> Iterator[OpenTime]:
     """Yield what changes the time integral of a first moment by more than ``least`` (kg m s)."""
     for k, travel in enumerate(timed(track.t, track.values[:, i], mass.speed), 1):
-        by_degrees = travel.is_late or travel.is_stepwise
+        by_degrees = travel.is_late or travel.is_long
         times = (_by_degrees if by_degrees else _of_ends)(track, i, f"{mass.name}_{k}", travel)
         yield from (each for each in times if mass.mass * travel.path * each.sd > least)
+        smooth = _smooth(track, i, f"{mass.name}_{k}", travel, mass.speed)
+        area = cumulative_trapezoid(smooth.effect, smooth.corners)
+        if mass.mass * smooth.sd * float(np.abs(area).max()) > least:
+            yield smooth
 
 
 def _of_ends(track: Samples, i: int, name: str, travel: TimedTravel) -> Iterator[OpenTime]:
@@ -90,3 +109,38 @@ def _by_degrees(track: Samples, i: int, name: str, travel: TimedTravel) -> Itera
         if sd > 0:
             effect = weight * slowness(corners, part, i, np.sqrt(3) * sd)
             yield OpenTime(f"{end}_{name}", sd, corners, effect)
+
+
+def _smooth(track: Samples, i: int, name: str, travel: TimedTravel, greatest: float) -> OpenTime:
+    """Return d_smooth - d_log of a travel of a mass whose greatest speed (m/s) is known.
+
+    A smooth one begins and ends unnoticed: ``TAIL`` rows to either side count.
+    """
+    rows = slice(max(travel.first - TAIL, 0), travel.last + 1 + TAIL)
+    at, d = track.t[rows], track.values[rows, i]
+    t = np.interp(np.arange((len(at) - 1) * PARTS + 1) / PARTS, np.arange(len(at)), at)
+    return OpenTime(f"{SMOOTHNESS}_{name}", SMOOTH, t, bend(t, at, d, greatest))
+
+
+def bend(t: Series1, at: Series1, d: Series1, greatest: float) -> Series1:
+    """Return d_smooth - d_log (m) at ``t`` of rows d (m) at times ``at``: Hermite's cubics."""
+    first, last = end_slopes(at, d, greatest)
+    k = np.clip(np.searchsorted(at, t, side="right") - 1, 0, len(first) - 1)
+    length = np.diff(at)[k]
+    u = np.clip((t - at[k]) / length, 0.0, 1.0)
+    return length * u * (1 - u) * (first[k] * (1 - u) - last[k] * u)
+
+
+def end_slopes(t: Series1, d: Series1, greatest: float) -> tuple[Series1, Series1]:
+    """Return by how much a smooth path is faster than each step at its begin and its end, m/s."""
+    steps, speeds = np.diff(t), np.diff(d) / np.diff(t)
+    straight = (np.abs(speeds) > greatest / FASTER) & (np.abs(speeds) < greatest * FASTER)
+    before, after = speeds[:-1], speeds[1:]
+    slow, fast = np.sort(np.abs([before, after]), axis=0)
+    alike = before * after > 0
+    passing = alike & (slow > CORNER * fast) & ~(straight[:-1] | straight[1:])
+    across = (d[2:] - d[:-2]) / (steps[:-1] + steps[1:])
+    bent = ~straight & (np.append(passing, False) | np.append(False, passing))
+    first = np.append(0.0, np.where(passing, across, alike * before)) - speeds
+    last = np.append(np.where(passing, across, alike * after), 0.0) - speeds
+    return bent * first, bent * last

@@ -54,9 +54,9 @@ class TimedTravel(NamedTuple):
         return self.last == self.first + 1
 
     @property
-    def is_stepwise(self) -> bool:
-        """Say whether steps between its first and its last are open, too: a stepper's."""
-        return bool(np.any(self.slack[1:-1] > 0))
+    def is_long(self) -> bool:
+        """Say whether there are steps between its first and its last: how even they are is open."""
+        return self.last > self.first + 2
 
 
 def merged_travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:

@@ -10,6 +10,7 @@ from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import CORE, sensor_sizes
 from equipoise.maths.linalg import inverse_spd
+from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate
 from equipoise.model.reasons.data_reasons import Unexplained
@@ -45,9 +46,11 @@ def added(model: RecordModel, requested: Params) -> tuple[str, ...]:
 
 
 def term_reasons(model: RecordModel, requested: Params) -> list[Reason]:
-    """Return which terms were added."""
-    groups = dict.fromkeys(term.split("_")[0] for term in added(model, requested))
-    return [Reason(Why.TERMS_ADDED, tuple(groups))] if groups else []
+    """Return which terms were added, and which of them a testbed file can declare."""
+    groups = tuple(dict.fromkeys(term.split("_")[0] for term in added(model, requested)))
+    torques = tuple(group for group in groups if group in torque_terms.GROUPS)
+    found = [Reason(Why.TERMS_ADDED, groups)] if groups else []
+    return [*found, Reason(Why.TERMS_TO_DECLARE, torques)] if torques else found
 
 
 def lean_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:

@@ -51,6 +51,17 @@ def start(
     )  # fmt: skip
 
 
+def as_measured(recording: Recording, testbed: Testbed, first: float, point: Unknowns) -> Unknowns:
+    """Return a point with the attitude and rate that are measured; ``first``: when it begins, s.
+
+    Of a slender body the first momentum says little of the rate: its error over the least moment is
+    larger than that of a gyro's row by far.
+    """
+    motion = sampled_motion(recording, testbed)
+    w0 = motion.w[0]
+    return replace(point, q0=turned_on(motion.q[0], w0, first - motion.t[0]), w0=w0)
+
+
 def stated_body(testbed: Testbed, beside: Unknowns) -> Unknowns:
     """Return the testbed's body, with the motion and the size of other unknowns, all zero."""
     body = testbed.body

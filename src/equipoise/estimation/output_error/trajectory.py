@@ -22,7 +22,7 @@ import numpy as np
 from equipoise.actuators.mass_errors import MassErrors
 from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
-from equipoise.estimation.output_error.initial_guess import start
+from equipoise.estimation.output_error.initial_guess import as_measured, start
 from equipoise.estimation.output_error.multiple_shooting import shot
 from equipoise.estimation.output_error.problem import (
     ANCHOR,
@@ -41,6 +41,7 @@ from equipoise.estimation.output_error.solution import (
     chi_square_share,
     cost_of,
     evaluate,
+    finite_cost,
     settle,
 )
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, core_of
@@ -55,7 +56,15 @@ METHOD = "trajectory"
 CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to the end
 LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start is tried
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
+FOLLOWED = (
+    0.05  # rad rms, chosen: a part is longer than the one before by what is predicted so well
+)
+GROWTH, SLOWEST = (
+    2.0,
+    1.06,
+)  # chosen: times that a part is longer than the one before, at most; least
 SHORTEST = 0.02  # of the record, the least part to begin with
+FEW = 1 / 16  # of a record on which other starts are lost, chosen
 FEW_SWINGS = 1 / 32  # of a long record, chosen: 56 s of half an hour
 FEW_ROWS = 50  # chosen: fewer are no motion
 GUIDED = 0.1  # natural sizes of torques, on the way
@@ -163,7 +172,9 @@ def approach(
 ) -> Unknowns:
     """Return a point from which the whole record can be fitted: fit a growing first part.
 
-    The first is of the share ``most`` of the record, or as short as the point can be followed.
+    The first is of the share ``most`` of the record, or as short as the point can be followed. Each
+    is as much longer than the one before as its fit still predicts: a move of masses first shows a
+    scale that was open till then, which half a swing behind it is far off.
 
     On the way the testbed's inertia counts as prior, torques are kept small and the camera counts
     as coarse, so that a part too short to show them, or a model that does not hold, cannot drive
@@ -182,10 +193,15 @@ def approach(
     share = most
     while share > SHORTEST and misfit(*posed(share)) > CAPTURE:
         share /= 2
-    while share <= 1.0 and params.budget.allows(Stage.MOTION):
-        point = replace(settle(*posed(share)).point, error=point.error)
-        share *= 2
-    return point
+    while True:
+        found = settle(*posed(share))
+        point = replace(found.point, error=point.error)
+        if share >= 1.0 or not params.budget.allows(Stage.MOTION):
+            return point
+        predicted, growth = max(FOLLOWED, 2 * misfit_at(found.problem, found.at)), GROWTH
+        while growth > SLOWEST and misfit(*posed(min(growth * share, 1.0))) > predicted:
+            growth = growth**0.5
+        share = min(growth * share, 1.0)
 
 
 def few_swings(recording: Recording) -> float:
@@ -222,23 +238,43 @@ def fit(
     """
     recording = arranged(recording, testbed.mass_names)
     problem = problem_of(recording, testbed, params)
-    if guess is None:
-        first = float(problem.line.t[0])
-        hold = held_names(recording, testbed, params)
-        point = start(early or recording, testbed, problem.layout, first, hold)
-        if early is not None:
-            point = approach(recording, testbed, params, point, few_swings(recording))
-        elif params.terms or misfit(problem, point) > CAPTURE:
-            point = approach(recording, testbed, params, point)
-    else:
-        point = guess
+    if guess is not None:
+        return settle_pinned(problem, guess)
+    point = first_point(recording, testbed, params, problem, early)
     found = settle_pinned(problem, point)
-    if guess is not None or explains(found) or recording.attitude is None:
-        return found
-    if not params.budget.allows(Stage.MOTION):
-        return found
-    shot_at = shoot(recording, testbed, params, point)
-    return min(found, settle_pinned(problem, shot_at), key=cost_of)
+    motion = Stage.MOTION
+    if not explains(found) and recording.attitude is not None and params.budget.allows(motion):
+        shot_at = shoot(recording, testbed, params, point)
+        found = min(found, settle_pinned(problem, shot_at), key=cost_of)
+    if not explains(found) and early is None and params.budget.allows(motion):
+        first = as_measured(recording, testbed, float(problem.line.t[0]), point)
+        grown = approach(recording, testbed, params, first, FEW)
+        found = min(found, settle_pinned(problem, grown), key=cost_of)
+    return found
+
+
+def first_point(
+    recording: Recording,
+    testbed: Testbed,
+    params: Params,
+    problem: Problem,
+    early: Recording | None,
+) -> Unknowns:
+    """Return the point of the linear methods, grown to the whole record where it is lost there."""
+    first = float(problem.line.t[0])
+    hold = held_names(recording, testbed, params)
+    linear = start(early or recording, testbed, problem.layout, first, hold)
+    if early is not None:
+        return approach(recording, testbed, params, linear, few_swings(recording))
+    point = nearer(problem, linear, as_measured(recording, testbed, first, linear))
+    if params.terms or misfit(problem, point) > CAPTURE:
+        return approach(recording, testbed, params, point)
+    return point
+
+
+def nearer(problem: Problem, *points: Unknowns) -> Unknowns:
+    """Return the point from which the motion is nearest to the rows."""
+    return min(points, key=lambda point: finite_cost(misfit(problem, point)))
 
 
 def explains(fit: Fitted) -> bool:

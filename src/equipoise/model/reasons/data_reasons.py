@@ -19,7 +19,7 @@ class Unobservable(Code):
     PARAMETER = "parameter", "the data do not show {0}"
     COMBINATION = "combination", "the data cannot separate: {names}"
     TILT = (
-        "tilt",
+        "tilt_open",
         "the data do not show where gravity points, so nor the centre of mass; an attitude sensor "
         "does, or a longer record of larger swings",
     )

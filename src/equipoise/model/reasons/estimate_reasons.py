@@ -84,6 +84,11 @@ class EstimateReason(Code):
         "The gyro noise is {found:deg .2g} deg/s a row, not {stated:deg .2g} as stated.",
     )
     TERMS_ADDED = "terms_added", "Terms that the record supports were added: {names}."
+    TERMS_TO_DECLARE = (
+        "terms_to_declare",
+        "Declare under [disturbance] consider in the testbed file: {names}; then shorter records "
+        "count that, too, also when balancing and holding.",
+    )
     CAMERA_LEANS = (
         "camera_leans",
         "The camera's vertical leans {lean:deg .2g} deg from gravity's; that is corrected.",
