@@ -107,7 +107,7 @@ def test_what_goes_at_its_greatest_speed_or_in_one_step_goes_straight(d_mm):
 
 
 def test_a_smooth_ramp_is_what_the_bend_adds_to_its_rows():
-    """30 mm in 5 s, 10 s^3 - 15 s^4 + 6 s^5: a sixth of the straight path's error is left at most."""
+    """30 mm in 5 s, 10 s^3 - 15 s^4 + 6 s^5: a sixth of a straight path's error is left."""
     t, fine = np.arange(0.0, 9.0, 0.5), np.linspace(0.0, 8.5, 500)
     ramp = [30.0 * smooth(np.clip((at - 1.8) / 5.0, 0, 1)) for at in (t, fine)]
     track = Samples(t, ramp[0][:, None] * 1e-3)

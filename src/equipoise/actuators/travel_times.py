@@ -38,7 +38,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_trapezoid
 
 from equipoise.actuators.lags import is_command, slowness
 from equipoise.actuators.stops import MassError, is_travelling, travels
@@ -162,7 +161,8 @@ def bend(t: Series1, track: Samples, i: int, travel: TimedTravel) -> Series1:
 def bends_openly(track: Samples, i: int, travel: TimedTravel, least: float) -> bool:
     """Say whether the time integral of the bend, m s, exceeds ``least`` anywhere in a travel."""
     t = fine_times(track, travel)
-    area = cumulative_trapezoid(bend(t, track, i, travel), t)
+    ahead = bend(t, track, i, travel)
+    area = np.cumsum(0.5 * (ahead[1:] + ahead[:-1]) * np.diff(t))
     return travel.smoothness_sd * float(np.abs(area).max()) > least
 
 
