@@ -14,7 +14,8 @@ import numpy as np
 
 from equipoise.estimation.method_contract import Options, heeded
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.output_error.trajectory import Params, fit, misfit_at
+from equipoise.estimation.output_error.growing_horizon import misfit_at
+from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.regression.formulations.rows import body_with
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.testbed_file import read_testbed

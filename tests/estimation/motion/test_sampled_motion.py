@@ -11,8 +11,9 @@ from equipoise.estimation.motion.sampled_motion import (
     level,
     sampled_motion,
 )
+from equipoise.estimation.output_error.growing_horizon import CAPTURE, misfit
 from equipoise.estimation.output_error.initial_guess import start
-from equipoise.estimation.output_error.trajectory import CAPTURE, Params, misfit, problem_of
+from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.maths.attitude import difference, exponential, tilt
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.recording import Recording, Samples

@@ -17,9 +17,10 @@ from equipoise.estimation.events.record_model import (
     jumps_of,
     smoothed,
 )
+from equipoise.estimation.output_error.growing_horizon import at_rest
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import evaluate, settle
-from equipoise.estimation.output_error.trajectory import at_rest, problem_of
+from equipoise.estimation.output_error.trajectory import problem_of
 from equipoise.estimation.parameters.fit_parameters import RATE, TURN, Unknowns, unknowns_of
 from equipoise.estimation.search_budget import Stage
 from equipoise.maths.attitude import turned_on

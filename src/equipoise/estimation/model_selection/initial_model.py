@@ -8,8 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from equipoise.estimation.output_error.growing_horizon import CAPTURE, misfit_at
 from equipoise.estimation.output_error.solution import Fitted, chi_square_share
-from equipoise.estimation.output_error.trajectory import CAPTURE, Params, fit, misfit_at
+from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.search_budget import Stage
 from equipoise.model import torque_terms
 from equipoise.model.recording import Recording

@@ -32,10 +32,11 @@ from equipoise.estimation.model_selection.survey_reasons import (
 )
 from equipoise.estimation.motion.unresolved_rates import without_unresolved_rates
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
+from equipoise.estimation.output_error.growing_horizon import at_rest
 from equipoise.estimation.output_error.outlier_rejection import without_outliers
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
-from equipoise.estimation.output_error.trajectory import METHOD, Params, at_rest
+from equipoise.estimation.output_error.trajectory import METHOD, Params
 from equipoise.estimation.search_budget import cut_short
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError

@@ -7,7 +7,7 @@ stop, through every known move in the record (Ivanov 2021 section 3 with errata 
 about P, multiplicative residual, first attitude free, realised displacements as unknowns with
 their accuracy as prior). J moves in log-Cholesky coordinates and is always possible.
 
-Starts from the linear methods; where these are too wrong, the horizon grows step by step.
+Starts from the linear methods; where these are too wrong, the horizon grows (``growing_horizon``).
 Reaches the Cramer-Rao bound when the model holds; the outcome says when it does not.
 
 Cannot see: the common scale of J and com without a known move, stored momentum or held value; com
@@ -22,6 +22,13 @@ import numpy as np
 from equipoise.actuators.mass_errors import MassErrors
 from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
+from equipoise.estimation.output_error.growing_horizon import (
+    CAPTURE,
+    FEW,
+    few_swings,
+    grown,
+    misfit,
+)
 from equipoise.estimation.output_error.initial_guess import as_measured, start
 from equipoise.estimation.output_error.multiple_shooting import shot
 from equipoise.estimation.output_error.problem import (
@@ -36,37 +43,22 @@ from equipoise.estimation.output_error.problem import (
 )
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump
 from equipoise.estimation.output_error.solution import (
-    Evaluation,
     Fitted,
     chi_square_share,
     cost_of,
-    evaluate,
     finite_cost,
-    settle,
 )
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, core_of
 from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import BODY, INERTIA
-from equipoise.model.recording import Recording, arranged, window
+from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
 METHOD = "trajectory"
-CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to the end
 LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start is tried
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
-FOLLOWED = (
-    0.05  # rad rms, chosen: a part is longer than the one before by what is predicted so well
-)
-GROWTH, SLOWEST = (
-    2.0,
-    1.06,
-)  # chosen: times that a part is longer than the one before, at most; least
-SHORTEST = 0.02  # of the record, the least part to begin with
-FEW = 1 / 16  # of a record on which other starts are lost, chosen
-FEW_SWINGS = 1 / 32  # of a long record, chosen: 56 s of half an hour
-FEW_ROWS = 50  # chosen: fewer are no motion
 GUIDED = 0.1  # natural sizes of torques, on the way
 COARSE = 0.01  # rad, rad/s, chosen: half a degree
 
@@ -151,18 +143,6 @@ def problem_of(
     return replace(posed, budget=params.budget)
 
 
-def misfit(problem: Problem, point: Unknowns) -> float:
-    """Return the rms residual vector in rad (with a camera) or rad/s."""
-    return misfit_at(problem, evaluate(problem, point))
-
-
-def misfit_at(problem: Problem, at: Evaluation) -> float:
-    """Return the same of residuals that are at hand."""
-    left = at.left_q * problem.observed.attitude_sd if len(at.left_q) else at.left_w
-    square: Floats = np.sum(left**2, axis=1)
-    return float(np.sqrt(np.mean(square)))
-
-
 def approach(
     recording: Recording,
     testbed: Testbed,
@@ -170,59 +150,20 @@ def approach(
     point: Unknowns,
     most: float = 1.0,
 ) -> Unknowns:
-    """Return a point from which the whole record can be fitted: fit a growing first part.
-
-    The first is of the share ``most`` of the record, or as short as the point can be followed. Each
-    is as much longer than the one before as its fit still predicts: a move of masses first shows a
-    scale that was open till then, which half a swing behind it is far off.
+    """Return a point from which the whole record can be fitted, by a growing horizon.
 
     On the way the testbed's inertia counts as prior, torques are kept small and the camera counts
     as coarse, so that a part too short to show them, or a model that does not hold, cannot drive
     the search away.
     """
-    start_t, end_t = recording.span
     coarse, guided = coarsened(testbed), replace(params, use_prior=True)
-
-    def part(share: float) -> Recording:
-        return window(recording, start_t, start_t + share * (end_t - start_t))
-
-    def posed(share: float) -> tuple[Problem, Unknowns]:
-        problem = problem_of(part(share), coarse, guided, GUIDED)
-        return problem, at_rest(problem, point)
-
-    share = most
-    while share > SHORTEST and misfit(*posed(share)) > CAPTURE:
-        share /= 2
-    while True:
-        found = settle(*posed(share))
-        point = replace(found.point, error=point.error)
-        if share >= 1.0 or not params.budget.allows(Stage.MOTION):
-            return point
-        predicted, growth = max(FOLLOWED, 2 * misfit_at(found.problem, found.at)), GROWTH
-        while growth > SLOWEST and misfit(*posed(min(growth * share, 1.0))) > predicted:
-            growth = growth**0.5
-        share = min(growth * share, 1.0)
-
-
-def few_swings(recording: Recording) -> float:
-    """Return the first share of a long record to fit: ``FEW_SWINGS``, or more if it is sparse."""
-    start_t, end_t = recording.span
-    channels = [c.t for c in (recording.attitude, recording.rate) if c is not None]
-    share, rows = FEW_SWINGS, np.concatenate(channels)
-    while np.sum(rows < start_t + share * (end_t - start_t)) < FEW_ROWS:
-        share *= 2
-    return share
+    return grown(recording, lambda part: problem_of(part, coarse, guided, GUIDED), point, most)
 
 
 def coarsened(testbed: Testbed) -> Testbed:
     """Return the testbed with sensors that are no better than the model is early in the search."""
     camera, gyro = camera_noise(testbed), gyro_noise(testbed)
     return with_noise(testbed, max(camera, COARSE), max(gyro, COARSE))
-
-
-def at_rest(problem: Problem, point: Unknowns) -> Unknowns:
-    """Return a point with the displacement errors that a part of a record has, all zero."""
-    return replace(point, error=np.zeros(len(problem.layout.errors)))
 
 
 def fit(
@@ -248,8 +189,8 @@ def fit(
         found = min(found, settle_pinned(problem, shot_at), key=cost_of)
     if not explains(found) and early is None and params.budget.allows(motion):
         first = as_measured(recording, testbed, float(problem.line.t[0]), point)
-        grown = approach(recording, testbed, params, first, FEW)
-        found = min(found, settle_pinned(problem, grown), key=cost_of)
+        grown_to = approach(recording, testbed, params, first, FEW)
+        found = min(found, settle_pinned(problem, grown_to), key=cost_of)
     return found
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.assessment.metrics.allan import FEWEST, Wander, wander_of
-from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error import growing_horizon, trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.maths.linalg import given
 from equipoise.model.arrays import Series1, Series3, Vector3
@@ -81,7 +81,7 @@ def spread_of(measurement: Estimate) -> Vector3:
 def metric_of(part: Recording, testbed: Testbed, params: trajectory.Params) -> Estimate | None:
     """Return the fit of a part; None where it is not usable or does not show all of com."""
     rows = max((len(c) for c in (part.attitude, part.rate) if c is not None), default=0)
-    if rows < trajectory.FEW_ROWS:
+    if rows < growing_horizon.FEW_ROWS:
         return None
     fitted = trajectory.fit(part, testbed, params)
     estimate = conclude(fitted, trajectory.METHOD, part)
