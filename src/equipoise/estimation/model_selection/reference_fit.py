@@ -16,7 +16,7 @@ from equipoise.estimation.events.event_report import reported_events
 from equipoise.estimation.events.event_search import during_travels, without_sure_travel
 from equipoise.estimation.events.event_time_covariance import with_moments
 from equipoise.estimation.events.record_model import RecordModel, jumping, refitted
-from equipoise.estimation.model_selection.decimation import condensed
+from equipoise.estimation.model_selection.decimation import condensed, with_few_bends
 from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
 from equipoise.estimation.model_selection.survey import MOST_EVENTS, is_calm, survey
@@ -169,7 +169,7 @@ def modelled(
     gone = {Why.RATES_UNRESOLVED: unresolved}
     if params.robust:
         kept, gone[Why.OUTLIERS_REMOVED] = without_outliers(kept, testbed, params)
-    model, found = modelled_by_all_rows(kept, testbed, params)
+    model, found = modelled_by_all_rows(with_few_bends(kept, testbed), testbed, params)
     left_out = [Reason(code, (), {"rows": rows}) for code, rows in gone.items() if rows]
     return model, replace(found, outcome=Outcome((*found.outcome.reasons, *left_out)))
 
