@@ -6,6 +6,7 @@ pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
 from equipoise.model.estimate import COM, Parameter
 from equipoise.model.reasons.data_reasons import Unobservable
+from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle.corpus import corpus_record
 from tests.support import thorough
@@ -14,6 +15,7 @@ from verification import siblings
 from verification.judged_records import (
     Conclusion,
     Judged,
+    concluded,
     errors,
     is_shown,
     judged,
@@ -47,6 +49,18 @@ def test_records_that_were_wrong_are_within_their_intervals(seed) -> None:
     z = errors(conclusion, record)
     assert {"com_z", "inertia_P_xx", "inertia_P_zz"} <= set(z)
     assert max(map(abs, z.values())) < 4.0
+
+
+def test_a_log_that_is_late_gives_the_scale_and_says_so() -> None:
+    """Measured positions, stamped 61 ms late: this record called the move an event, no scale."""
+    record = corpus_record(71)
+    *_, last = identify(record.recording, record.testbed, IdentifyOptions("trajectory"))
+    found = last.estimate
+    (reason,) = [r for r in found.outcome.reasons if r.code is EstimateReason.LATE_LOG]
+    late = found.parameters[found.index(reason.parameters[0])]
+    assert abs(late.value + record.choices.late) < 3.0 * late.sd
+    assert max(map(abs, errors(concluded(found), record).values())) < 4.0
+    assert found.parameters[found.index("inertia_P_zz")].observable
 
 
 @pytest.mark.parametrize("seed", [94, 120, *thorough.some((158,), 0)])

@@ -62,6 +62,7 @@ class SlidingMass:
     gain: float = 1.0  # -, first moment given over that stated, mass * command
     doubt: DriveDoubt | None = None  # not of a file: a calibration's own; None: as stated
     mass_sd: float = 0.0  # -, relative, one sd; 0: exact
+    logged_late: bool = False  # not of a file: a survey's own; measurements are stamped late, too
 
 
 @dataclass(frozen=True, slots=True, eq=False)

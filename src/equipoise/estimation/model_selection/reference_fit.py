@@ -24,6 +24,7 @@ from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
     driven,
     lean_reasons,
+    log_reasons,
     noise_reasons,
     open_terms,
     sensor_reasons,
@@ -102,6 +103,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
         return base
     found = [*base.reasons, *event_reasons(concluded, model), *noise_reasons(model)]
     found += [
+        *log_reasons(model, concluded),
         *lean_reasons(model, concluded),
         *sensor_reasons(model, concluded),
         *term_reasons(model, requested),

@@ -22,9 +22,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from equipoise.actuators.lags import logged_late
 from equipoise.estimation.events.event_search import (
+    CLEAR,
     colour_of,
     doubted,
+    during_travels,
     of_either_kind,
     pruned,
     settled,
@@ -109,7 +112,23 @@ def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> Rec
         return None
     event = Happening(fit.problem.jumps[k].t, kind)
     found = of_either_kind(replace(model, events=(*model.events, event)), len(model.events))
-    return found if farther(model, found) > threshold(model.spacing) else None
+    if farther(model, found) <= threshold(model.spacing):
+        return None
+    return of_late_log(model, found) or found
+
+
+def of_late_log(model: RecordModel, shaken: RecordModel) -> RecordModel | None:
+    """Return the model with a late log of the masses instead of an event, if that does as well.
+
+    A recorded move is the first explanation of a jump at its time.
+    """
+    masses = model.testbed.masses
+    moving = during_travels(model, [shaken.events[-1].t])
+    if not any(moving) or all(mass.logged_late for mass in masses):
+        return None
+    late = replace(model, testbed=replace(model.testbed, masses=logged_late(masses)))
+    found = refitted(late)
+    return found if farther(found, shaken) < CLEAR else None
 
 
 def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from equipoise.actuators.lags import LAG
 from equipoise.estimation.events.record_model import RecordModel, slowest
 from equipoise.estimation.model_selection.cross_validation import posed_in
 from equipoise.estimation.model_selection.model_choice import candidates, with_group
@@ -51,6 +52,14 @@ def term_reasons(model: RecordModel, requested: Params) -> list[Reason]:
     torques = tuple(group for group in groups if group in torque_terms.GROUPS)
     found = [Reason(Why.TERMS_ADDED, groups)] if groups else []
     return [*found, Reason(Why.TERMS_TO_DECLARE, torques)] if torques else found
+
+
+def log_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:
+    """Return by how much the log of the masses is late, where the record shows that it is."""
+    if not any(mass.logged_late for mass in model.testbed.masses):
+        return []
+    lags = [p for p in concluded.parameters if p.name.startswith(LAG)]
+    return [Reason(Why.LATE_LOG, (p.name,), {"late": p.value}) for p in lags]
 
 
 def lean_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:

@@ -1,10 +1,12 @@
 """What the sensors should have measured, by a set of mass properties."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from equipoise.actuators.drive_errors import on_rails, rails_of
+from equipoise.actuators.lags import LAG, logged_late
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.dynamics.regressor import N_TORQUES
@@ -67,6 +69,8 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
     q0 = exponential(estimate.values(ATTITUDE))
     found = {p.name: p.value for p in estimate.parameters}
+    if any(name.startswith(LAG) for name in found):
+        testbed = replace(testbed, masses=logged_late(testbed.masses))
     motion = run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
     shown = np.empty_like(motion.q)
     sensor = np.array([found.get(term, 0.0) for term in sensor_terms.TERMS])

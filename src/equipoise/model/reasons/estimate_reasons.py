@@ -93,6 +93,11 @@ class EstimateReason(Code):
         "camera_leans",
         "The camera's vertical leans {lean:deg .2g} deg from gravity's; that is corrected.",
     )
+    LATE_LOG = (
+        "late_log",
+        "Masses travelled {late:ms .0f} ms behind their log (before it, if negative); that is "
+        "corrected.",
+    )
     SENSOR_IMPLAUSIBLE = (
         "sensor_implausible",
         "But errors of sensors are larger than real ones are ({names}): they may stand for another "
