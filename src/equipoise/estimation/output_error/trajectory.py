@@ -50,6 +50,7 @@ from equipoise.estimation.output_error.solution import (
 )
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, core_of
 from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
+from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import BODY, INERTIA
@@ -59,6 +60,7 @@ from equipoise.model.testbed import Testbed
 METHOD = "trajectory"
 LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start is tried
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
+AS_WELL = 1.0  # of half a chi-square, chosen: what does not tell two solutions apart
 GUIDED = 0.1  # natural sizes of torques, on the way
 COARSE = 0.01  # rad, rad/s, chosen: half a degree
 
@@ -191,7 +193,20 @@ def fit(
         first = as_measured(recording, testbed, float(problem.line.t[0]), point)
         grown_to = approach(recording, testbed, params, first, FEW)
         found = min(found, settle_pinned(problem, grown_to), key=cost_of)
-    return found
+    return upright(found)
+
+
+def upright(fit: Fitted) -> Fitted:
+    """Return a fit in which the platform does not hang upside down, where that does as well.
+
+    A gyro sees torque m g com x n alone: com and n, both reversed, move the platform alike.
+    """
+    problem, q0 = fit.problem, fit.point.q0
+    if len(problem.observed.attitude) or to_matrix(q0)[2] @ problem.testbed.up > 0:
+        return fit
+    turned = multiply(exponential(np.array([np.pi, 0.0, 0.0])), q0)
+    found = settle_pinned(problem, replace(fit.point, q0=turned, com=-fit.point.com))
+    return found if cost_of(found) < cost_of(fit) + AS_WELL else fit
 
 
 def first_point(
