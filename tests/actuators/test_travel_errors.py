@@ -69,6 +69,11 @@ def test_longer_travels_are_late_by_degrees_by_hand():
     assert total.sum() == pytest.approx(-0.015, rel=2e-3)
 
 
+def test_a_long_travel_whose_rows_are_its_corners_leaves_no_time_open():
+    """Three steps at its speed of 10 mm/s."""
+    assert mass_errors(track_of([0, 0, 10, 20, 30, 30]), (X,)).names == ()
+
+
 def test_a_jump_is_late_as_a_whole():
     """Whatever its duration, its mean time and how it is spread are all that act."""
     track = track_of([0, 0, 8, 8])

@@ -99,6 +99,8 @@ def _by_degrees(track: Samples, i: int, name: str, travel: TimedTravel) -> Itera
     rows = slice(travel.first, travel.last + 1)
     part = Samples(track.t[rows], track.values[rows])
     sds = travel.departure_sd, travel.arrival_sd
+    if not any(sds):
+        return
     knots = [part.t + sign * np.sqrt(3) * sd for sd in sds for sign in (-1, 1) if sd > 0]
     corners = np.unique(np.concatenate(knots))
     share = np.interp(corners, part.t[[0, -1]], [0.0, 1.0])
