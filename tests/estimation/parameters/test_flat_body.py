@@ -18,9 +18,8 @@ from equipoise.model.mass_properties import (
 )
 from equipoise.model.outcome import Outcome, Trust
 from equipoise.model.reasons.estimate_reasons import EstimateReason
+from equipoise.model.units import MM, UM
 from equipoise.simulation.carried_out import record
-
-MM, UM = 1e-3, 1e-6
 
 
 def plate(thickness, width=0.3, mass=10.0, com=(0.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0)):

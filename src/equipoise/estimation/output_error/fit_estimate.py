@@ -242,9 +242,11 @@ def is_tilt_open(fitted: Fitted, view: Visibility) -> bool:
     """Say whether the tilt is so uncertain that com and tilt show as a product only.
 
     A camera sees the tilt apart from com; a gyro sees com times the tilt, and the hyperbola on
-    which both lie is straight over a small part of either.
+    which both lie is straight over a small part of either. Of a com that is held one lies on none.
     """
     problem, sd = fitted.problem, tilt_sd(fitted, view)
+    if problem.prior.held[R].any():
+        return False
     tilt = float(np.linalg.norm(np.cross(problem.testbed.up, to_matrix(fitted.point.q0)[2])))
     return sd > TILTED or (not len(problem.observed.attitude) and sd > SHARE * tilt)
 

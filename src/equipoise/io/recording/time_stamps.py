@@ -45,7 +45,9 @@ def without_strays(table: Table, time: Series1, rows: Ints) -> tuple[Ints, Notes
     notes: list[str] = []
     while True:
         steps = np.diff(time[rows])
-        last = int(np.argmax(steps)) if len(steps) else 0
+        if not len(steps):
+            return rows, tuple(notes)
+        last = int(np.argmax(steps))
         before, after = last + 1, len(rows) - last - 1
         if min(before, after) >= FEW * len(rows):
             return rows, tuple(notes)
