@@ -162,7 +162,8 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn, hold: float = HOLD) 
         *(note_of(run) for run in runs if not row_of(run).ok),
     )
     claim = (
-        "Preset sputnix with 1 um/min of drift in a random direction: balanced to "
+        "Preset sputnix with 1 um/min of drift in a random direction, declared "
+        "under `[disturbance] consider`: balanced to "
         f"{1e6 * HOLDING.balancing.tolerance[2]:g} um with at most {HOLDING.balancing.max_moves} "
         f"moves and {HOLDING.balancing.max_time:g} s, then held for {hold / 60:.0f} min within "
         f"{1e6 * LIMIT:g} um of the target."
