@@ -85,9 +85,10 @@ def evaluate(
 
 @part
 def start(
-    body: Body, now: Now, inputs: Inputs, i: int, q: Floats, w: Floats, y: Floats, work: Work
-) -> None:
-    """Write q, H = J w + h and their sensitivities at the beginning of step i."""
+    body: Body, now: Now, inputs: Inputs, i: int, share: float, q: Floats, w: Floats, y: Floats,
+    work: Work,
+) -> None:  # fmt: skip
+    """Write q, H = J w + h and their sensitivities at ``share`` of step i."""
     columns, fb = inputs.columns, work.fb
     H = times(now.inertia, (w[0], w[1], w[2]))
     y[:] = 0.0
@@ -95,7 +96,7 @@ def start(
         y[j] = q[j]
     for j in range(3):
         y[4 + j] = H[j] + now.momentum[j]
-    evaluate(body, now, inputs, i, 0.0, y, work)
+    evaluate(body, now, inputs, i, share, y, work)
     for c in range(columns.kinds.shape[0]):
         kind, k, first = columns.kinds[c], columns.indices[c], place(c)
         if kind == TURN:
@@ -228,7 +229,7 @@ def _run(body: Body, inputs: Inputs, q0: Floats, w0: Floats, out: Motion) -> Non
         i, share = (last, 1.0) if node > last else (node, 0.0)
         now = body_at(body, inputs.maps, t, inputs.known, i, share)
         if node == 0:
-            start(body, now, inputs, i, q0, w0, y, work)
+            start(body, now, inputs, i, share, q0, w0, y, work)
         rate, _ = evaluate(body, now, inputs, i, share, y, work)
         out.q[node] = y[:4]
         out.momentum[node] = y[4:7]

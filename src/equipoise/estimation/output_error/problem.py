@@ -14,6 +14,7 @@ from equipoise.dynamics.sensitivities import Columns
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.estimation.output_error.kernels.gauss_newton import Posed
 from equipoise.estimation.output_error.kernels.normal_equations import Measurements
+from equipoise.estimation.output_error.kernels.parts import parts_of
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump, cuts_of, inside
 from equipoise.estimation.parameters.fit_parameters import (
     CORE,
@@ -226,10 +227,11 @@ def reposed(problem: Problem, recording: Recording, testbed: Testbed) -> Problem
 def posed(problem: Problem) -> Posed:
     """Return the problem as the kernel sees it."""
     line, prior = problem.line, problem.prior
+    cuts = cuts_of(problem.jumps, line.t, problem.layout)
     return Posed(problem.mass, problem.gravity, stacked(problem.maps), line.t, line.known,
                  line.owners, problem.columns, problem.observed, problem.limit, prior.mean,
                  prior.weight, prior.held, problem.layout.slots,
-                 cuts_of(problem.jumps, line.t, problem.layout))  # fmt: skip
+                 cuts, parts_of(line, cuts.nodes, problem.columns))  # fmt: skip
 
 
 def changes(recording: Recording, masses_count: bool = True) -> bool:

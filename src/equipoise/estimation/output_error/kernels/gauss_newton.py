@@ -22,7 +22,20 @@ from equipoise.estimation.output_error.kernels.normal_equations import (
     Measurements,
     Pass,
     accumulate,
-    pass_for,
+    narrowed,
+    step_behind,
+)
+from equipoise.estimation.output_error.kernels.parts import (
+    Parts,
+    Share,
+    add_part,
+    begin_part,
+    begin_stretch,
+    columns_within,
+    count_errors,
+    express,
+    pass_on,
+    share_for,
 )
 from equipoise.estimation.output_error.kernels.segments import (
     Chain,
@@ -72,6 +85,7 @@ class Posed(NamedTuple):
     held: NDArray[np.bool_]
     slots: Ints  # where a point keeps each coordinate
     cuts: Cuts
+    parts: Parts
 
 
 class Local(NamedTuple):
@@ -114,12 +128,12 @@ def by_com(column: int, mass: float) -> float:
 @part
 def unpack(work: Pass, mass: float, normal: Floats, descent: Floats) -> bool:
     """Write A and b of the data by com instead of first moment; say whether all is finite."""
-    n, finite = descent.shape[0], True
-    for a in range(n):
+    lanes, finite = work.descent.shape[0], True
+    for a in range(work.normal.shape[0] // lanes):
         scale = by_com(a, mass)
         descent[a] = scale * work.descent[a]
         for b in range(a + 1):
-            value = scale * by_com(b, mass) * work.normal[a, b]
+            value = scale * by_com(b, mass) * work.normal[a * lanes + b]
             normal[a, b], normal[b, a] = value, value
             finite &= bool(np.isfinite(value))
     return finite
@@ -127,12 +141,13 @@ def unpack(work: Pass, mass: float, normal: Floats, descent: Floats) -> bool:
 
 @part
 def arrive(
-    mass: float, body: Body, inputs: Inputs, node: int, work: Pass, onward: Floats, here: Floats
+    mass: float, body: Body, inputs: Inputs, node: int, work: Pass, phi: Floats, here: Floats
 ) -> None:
-    """Write attitude and rate at a cut, as the step that leaves it sees them, and Phi to there."""
+    """Write attitude and rate at a node, as the step that ends there sees them, and Phi."""
     y, fb = work.y, work.step.fb
-    now = body_at(body, inputs.maps, inputs.t, inputs.known, node, 0.0)
-    w, _ = evaluate(body, now, inputs, node, 0.0, y, work.step)
+    i, share = step_behind(node)
+    now = body_at(body, inputs.maps, inputs.t, inputs.known, i, share)
+    w, _ = evaluate(body, now, inputs, i, share, y, work.step)
     for j in range(4):
         here[j] = y[j]
     for j in range(3):
@@ -143,8 +158,8 @@ def arrive(
         dw = times(now.inverse, (y[k + 3 * LANES] - fb[i], y[k + 4 * LANES] - fb[i + LANES],
                                  y[k + 5 * LANES] - fb[i + 2 * LANES]))  # fmt: skip
         for j in range(3):
-            onward[j, c] = scale * y[k + j * LANES]
-            onward[3 + j, c] = scale * dw[j]
+            phi[j, c] = scale * y[k + j * LANES]
+            phi[3 + j, c] = scale * dw[j]
 
 
 @part
@@ -156,20 +171,65 @@ def jump(posed: Posed, k: int, jumps: Floats, step: Floats, here: Floats, out: F
     retract(here, step, posed.mass, posed.slots, out)
 
 
+@part
+def along_part(
+    posed: Posed, body: Body, known: Floats, p: int, here: Floats, rows: tuple[int, int],
+    at: Local, share: Share,
+) -> tuple[float, int, int, bool]:  # fmt: skip
+    """Sum a part into the arrays of ``share``, and write the state at its end into ``here``.
+
+    Return half the cost, the first rows of what follows, and whether all is finite.
+    """
+    parts, sensor, bias = posed.parts, here[SENSOR:ERROR], here[-3:]
+    columns, _ = columns_within(parts, p)
+    m, total = columns.kinds.shape[0], posed.columns.kinds.shape[0]
+    inputs = Inputs(posed.maps, posed.t, known, posed.owners, columns)
+    work = narrowed(share.own, m, m + posed.slots.shape[0] - total)
+    q0, w0, nodes = here[:W], here[W : W + 3], (parts.nodes[p], parts.nodes[p + 1])
+    cost, iq, iw = accumulate(body, inputs, q0, w0, sensor, bias, posed.observed, posed.limit,
+                              nodes, rows, work, at.left_q, at.left_w)  # fmt: skip
+    finite = unpack(work, posed.mass, share.square, share.right)
+    arrive(posed.mass, body, inputs, nodes[1], work, share.phi, here)
+    return cost, iq, iw, finite
+
+
+@part
+def along_stretch(
+    posed: Posed, known: Floats, k: int, here: Floats, rows: tuple[int, int], at: Local,
+    share: Share,
+) -> tuple[float, int, int, bool]:  # fmt: skip
+    """Write the local model of a stretch that begins at ``here``, which is its end then."""
+    parts, total, pieces = posed.parts, posed.columns.kinds.shape[0], at.pieces
+    normal, descent = pieces.normal[k], pieces.descent[k]
+    errors_at = total - count_errors(posed.columns)
+    body, cost, finite = body_at_point(here, posed.mass, posed.gravity), 0.0, True
+    iq, iw = rows
+    normal[:], descent[:] = 0.0, 0.0
+    begin_stretch(share)
+    for p in range(parts.stretch[k], parts.stretch[k + 1]):
+        of_part, iq, iw, is_finite = along_part(posed, body, known, p, here, (iq, iw), at, share)
+        cost, finite = cost + of_part, finite and is_finite
+        _, places = columns_within(parts, p)
+        nodes = (parts.nodes[p], parts.nodes[p + 1])
+        begin_part(places, errors_at, share)
+        express(known, posed.owners, posed.maps, nodes, posed.mass, errors_at, share)
+        add_part(places, total, share, normal, descent)
+        pass_on(places, total, share)
+    return cost, iq, iw, finite
+
+
 @kernel  # not a part: smoothing calls it too
 def search_along(
-    posed: Posed, known: Floats, at: Local, work: Pass, step: Floats, here: Floats, behind: Floats
+    posed: Posed, known: Floats, at: Local, share: Share, step: Floats, here: Floats, behind: Floats
 ) -> float:
     """Write the local models of all stretches, and return half the cost of data and jumps.
 
     Infinite where the motion is no number. ``step``, ``here`` and ``behind`` are worked in.
     """
     cuts, pieces, finite = posed.cuts, at.pieces, True
-    inputs = Inputs(posed.maps, posed.t, known, posed.owners, posed.columns)
     cost, iq, iw, last = jump_cost(cuts, pieces.jumps), 0, 0, cuts.free.shape[0]
     for j in range(here.shape[0]):
         here[j] = at.point[j]
-    q0, w0, sensor, bias = here[:W], here[W : W + 3], here[SENSOR:ERROR], here[-3:]
     for k in range(last + 1):
         if k > 0:
             jump(posed, k - 1, pieces.jumps, step, here, behind)
@@ -177,16 +237,10 @@ def search_along(
                 here[j] = behind[j]
         for j in range(here.shape[0]):
             pieces.points[k, j] = here[j]
-        body = body_at_point(here, posed.mass, posed.gravity)
-        stretch = (cuts.nodes[k], cuts.nodes[k + 1])
-        of_data, iq, iw = accumulate(
-            body, inputs, q0, w0, sensor, bias, posed.observed, posed.limit, stretch, (iq, iw),
-            work, at.left_q, at.left_w,
-        )  # fmt: skip
-        cost += of_data
-        finite &= unpack(work, posed.mass, pieces.normal[k], pieces.descent[k])
+        of_data, iq, iw, is_finite = along_stretch(posed, known, k, here, (iq, iw), at, share)
+        cost, finite = cost + of_data, finite and is_finite
         if k < last:
-            arrive(posed.mass, body, inputs, stretch[1], work, pieces.onward[k], here)
+            copy_rows(share.onward, pieces.onward[k])
     return cost if finite else np.inf
 
 
@@ -295,7 +349,7 @@ def descend(
     trial = local_for(posed, best.point)
     copy_rows(best.pieces.jumps, trial.pieces.jumps)
     known = posed.known.copy() if posed.owners.shape[0] else posed.known
-    work, step_work = pass_for(posed.columns.kinds.shape[0], n), step_work_for(n)
+    work, step_work = share_for(posed.columns.kinds.shape[0], n), step_work_for(n)
     chain, step, x = chain_for(posed.cuts, n), np.empty(n), np.empty(n)
     here, behind = np.empty_like(best.point), np.empty_like(best.point)
     cost, promised = np.inf, np.inf

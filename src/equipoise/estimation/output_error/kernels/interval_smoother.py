@@ -19,21 +19,22 @@ from equipoise.estimation.output_error.kernels.gauss_newton import (
     search_along,
     stop_at_commands,
 )
-from equipoise.estimation.output_error.kernels.normal_equations import pass_for
+from equipoise.estimation.output_error.kernels.parts import share_for
 from equipoise.estimation.output_error.kernels.segments import (
     STATE,
     Chain,
     Cuts,
     Pieces,
     absorb_jump,
+    add_scaled,
     add_stretch,
     carry,
     carry_back,
     chain_for,
     count_free,
 )
-from equipoise.maths.compiled import kernel
-from equipoise.model.arrays import Floats
+from equipoise.maths.compiled import kernel, part
+from equipoise.model.arrays import Floats, Ints
 
 
 class Smoothed(NamedTuple):
@@ -66,22 +67,62 @@ def backward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> No
         out.score[k] = chain.descent
 
 
+@part
+def carried(F: Floats, changed: Ints, count: int, M: Floats, rows: Floats, out: Floats) -> None:
+    """Write F M, F being the unit matrix but for the rows ``changed``; ``rows`` is worked in."""
+    n = M.shape[0]
+    for i in range(count):
+        rows[i] = 0.0
+        for j in range(n):
+            add_scaled(F[i, j], M[j], rows[i], n)
+    for a in range(n):
+        for b in range(n):
+            out[a, b] = M[a, b]
+    for i in range(count):
+        for b in range(n):
+            out[changed[i], b] = rows[i, b]
+
+
+@part
+def onto_both(F: Floats, changed: Ints, count: int, C: Floats, rows: Floats, out: Floats) -> None:
+    """Write F C F^T of a symmetric C, in the same way."""
+    n = C.shape[0]
+    carried(F, changed, count, C, rows, out)
+    for a in range(n):
+        for i in range(count):
+            total = 0.0
+            for j in range(n):
+                total += F[i, j] * out[a, j]
+            rows[i, a] = total
+    for i in range(count):
+        for a in range(n):
+            out[a, changed[i]] = rows[i, a]
+
+
 @kernel
 def forward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: Smoothed) -> None:
     """Write the covariances, ``first`` being that of the first stretch."""
-    n, inverse = first.shape[0], out.firm
+    n, inverse, most = first.shape[0], out.firm, STATE + cuts.free.shape[1]
+    F, rows, changed = np.zeros((most, n)), np.zeros((most, n)), np.zeros(most, dtype=np.int64)
+    whole, place = np.empty((n, n)), np.empty(n, dtype=np.int64)
     out.covariance[0] = first
     for k in range(cuts.free.shape[0]):
-        m = count_free(cuts.free[k])
-        F = np.eye(n)
-        F[:STATE] = pieces.onward[k]
+        m, count = count_free(cuts.free[k]), STATE
+        place[:] = -1
+        for i in range(STATE):
+            F[i], changed[i], place[i] = pieces.onward[k, i], i, i
         for i in range(m):
-            F[cuts.free[k, i]] -= chain.gain[k, i]
-        G = np.ascontiguousarray(chain.gain[k, :m])
-        before = np.ascontiguousarray(out.covariance[k])
-        out.onward[:] = F @ out.onward
-        out.covariance[k + 1] = F @ before @ F.T
-        out.jump_covariance[k, :m, :m] = inverse[k, :m, :m] + G @ before @ G.T
+            at = cuts.free[k, i]
+            if place[at] < 0:
+                place[at], changed[count], F[count] = count, at, 0.0
+                F[count, at] = 1.0
+                count += 1
+            F[place[at]] -= chain.gain[k, i]
+        G, before = np.ascontiguousarray(chain.gain[k, :m]), out.covariance[k]
+        carried(F, changed, count, out.onward, rows, whole)
+        out.onward[:] = whole
+        onto_both(F, changed, count, before, rows, out.covariance[k + 1])
+        out.jump_covariance[k, :m, :m] = inverse[k, :m, :m] + G @ np.ascontiguousarray(before) @ G.T
         for i in range(m):
             for j in range(m):
                 out.covariance[k + 1, cuts.free[k, i], cuts.free[k, j]] += inverse[k, i, j]
@@ -93,7 +134,7 @@ def pieces_at(posed: Posed, at: Local) -> None:
     n, size = posed.slots.shape[0], at.point.shape[0]
     known = posed.known.copy()
     stop_at_commands(posed, at.point, known)
-    work = pass_for(posed.columns.kinds.shape[0], n)
+    work = share_for(posed.columns.kinds.shape[0], n)
     step, here, behind = np.empty(n), np.empty(size), np.empty(size)
     search_along(posed, known, at, work, step, here, behind)
 

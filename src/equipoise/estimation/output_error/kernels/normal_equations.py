@@ -85,7 +85,7 @@ class Pass(NamedTuple):
     step: Work
     S_q: Floats  # three rows of sensitivities, in blocks of LANES columns
     S_w: Floats
-    normal: Floats  # (unknowns, lanes), the lower triangle
+    normal: Floats  # (unknowns lanes,), row by row, the lower triangle
     descent: Floats  # (lanes,)
 
 
@@ -96,7 +96,22 @@ def pass_for(columns: int, unknowns: int) -> Pass:
     return Pass(
         np.empty(m), np.empty(m), np.empty(m), np.empty(m),
         Work(np.empty(m), np.empty(m), np.empty(m), np.zeros((3, WIDTH)), np.zeros(m - ROWS)),
-        np.zeros(3 * lanes), np.zeros(3 * lanes), np.zeros((unknowns, lanes)), np.zeros(lanes),
+        np.zeros(3 * lanes), np.zeros(3 * lanes), np.zeros(unknowns * lanes), np.zeros(lanes),
+    )  # fmt: skip
+
+
+@part
+def narrowed(work: Pass, columns: int, unknowns: int) -> Pass:
+    """Return the arrays for fewer sensitivities and unknowns, and bring to zero what must be."""
+    m, lanes = ROWS + room_for(columns), (unknowns + LANES - 1) // LANES * LANES
+    step = work.step
+    step.fb[:], work.S_q[:], work.S_w[:] = 0.0, 0.0, 0.0
+    work.normal[:], work.descent[:] = 0.0, 0.0
+    return Pass(
+        work.y[:m], work.y0[:m], work.dy0[:m], work.dy1[:m],
+        Work(step.at[:m], step.dy[:m], step.total[:m], step.regress, step.fb[: m - ROWS]),
+        work.S_q[: 3 * lanes], work.S_w[: 3 * lanes], work.normal[: unknowns * lanes],
+        work.descent[:lanes],
     )  # fmt: skip
 
 
@@ -110,8 +125,8 @@ def add_row(S: Floats, e: Triple, weight: float, normal: Floats, descent: Floats
         x, sums = S[3 * first : 3 * first + SPAN], descent[first : first + LANES]
         for c in range(width):
             sums[c] += weight * (e[0] * x[c] + e[1] * x[c + LANES] + e[2] * x[c + 2 * LANES])
-    for a in range(normal.shape[0]):
-        i, row = a // LANES * SPAN + a % LANES, normal[a]
+    for a in range(normal.shape[0] // lanes):
+        i, row = spot(a), normal[a * lanes : (a + 1) * lanes]
         s0, s1, s2 = weight * S[i], weight * S[i + LANES], weight * S[i + 2 * LANES]
         for first in range(0, a + 1, LANES):
             x, sums = S[3 * first : 3 * first + SPAN], row[first : first + LANES]
@@ -231,6 +246,12 @@ def see_rate(
 
 
 @part
+def step_behind(node: int) -> tuple[int, float]:
+    """Return the step that ends at a node, and its share there: all; the first step has none."""
+    return (node - 1, 1.0) if node > 0 else (node, 0.0)
+
+
+@part
 def accumulate(
     body: Body, inputs: Inputs, q0: Floats, w0: Floats, sensor: Floats, bias: Floats,
     data: Measurements, limit: float, stretch: tuple[int, int], rows: tuple[int, int], work: Pass,
@@ -238,21 +259,21 @@ def accumulate(
 ) -> tuple[float, int, int]:  # fmt: skip
     """Sum the normal equations of the steps from one node to another (``stretch``).
 
-    ``rows`` are the first camera and gyro row from there on. Write the residuals in units of sd;
-    return half the cost and the first rows of what follows. ``work.y`` is left at the end.
+    The state at the first is as the step that ends there sees it. ``rows`` are the first camera and
+    gyro row from there on. Write the residuals in units of sd; return half the cost and the first
+    rows of what follows. ``work.y`` is left at the end.
     """
     (maps, t, known, _, columns), (y, y0, dy0, dy1, step) = inputs, work[:5]
     n, last = columns.kinds.shape[0], t.shape[0] - 2
     q_node, w_node, q_share, w_share = (data.attitude_node, data.rate_node, data.attitude_share,
                                         data.rate_share)  # fmt: skip
-    work.normal[:], work.descent[:] = 0.0, 0.0
     cost, moving, was_steady, by = 0.0, drifts(body), False, gyro_matrix(sensor)
     iq, iw = rows
+    first, since = step_behind(stretch[0])
+    start(body, body_at(body, maps, t, known, first, since), inputs, first, since, q0, w0, y, step)
     for i in range(stretch[0], stretch[1]):
         is_steady = steady(known, i)
         fixed, here = is_steady and not moving, body_at(body, maps, t, known, i, 0.0)
-        if i == stretch[0]:
-            start(body, here, inputs, i, q0, w0, y, step)
         if not (was_steady and is_steady):
             slope_at(body, here, inputs, i, 0.0, y, step, dy1)
         for j in range(y.shape[0]):
