@@ -59,7 +59,11 @@ def fitted_means(few: Condensed, params: Params) -> tuple[Recording, Testbed, Pa
 
 
 def with_noise_of(few: Condensed, model: RecordModel, testbed: Testbed) -> Testbed:
-    """Return the testbed with a row's noise by that of the means: times sqrt(k)."""
+    """Return the testbed with a row's noise by that of the means: times sqrt(k).
+
+    Of the masses what the model says of their log holds for all rows, too.
+    """
+    testbed = replace(testbed, masses=model.testbed.masses)
     camera, gyro = camera_noise(model.testbed), gyro_noise(model.testbed)
     return with_noise(testbed, camera * few.attitude_rows**0.5, gyro * few.rate_rows**0.5)
 

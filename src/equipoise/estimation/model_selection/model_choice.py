@@ -10,6 +10,9 @@ the present optimum and the group's coefficients having a plausible size each (W
 needs a lead (``SURE``; Kass and Raftery 1995 call 6 strong). An error of a sensor needs none: where
 it is as likely there as not, leaving it out moves com by several sd.
 
+A log of the masses that was stamped late is such an error, too: what explains a jump at the time of
+a recorded move first is that move.
+
 An unknown event may resemble a term, and a term events. So a term that promises as much as an
 event is taken before it (``is_lawful``), and every term is put to the test again when all else is
 known (``bared``).
@@ -22,9 +25,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.event_search import CLEAR
+from equipoise.actuators.lags import LAG, logged_late
+from equipoise.estimation.events.event_search import CLEAR, spans_of_travels
 from equipoise.estimation.events.jump_test import threshold
-from equipoise.estimation.events.record_model import RecordModel, farther, improbability, refitted
+from equipoise.estimation.events.record_model import (
+    RecordModel,
+    farther,
+    improbability,
+    refitted,
+    with_errors_of,
+)
 from equipoise.estimation.model_selection.cross_validation import posed_in, predicts_better
 from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, with_free_vertical
 from equipoise.estimation.output_error.problem import changes
@@ -38,6 +48,7 @@ from equipoise.model.arrays import Floats
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
 DELAY = sensor_terms.GROUPS["camera_delay"]
+LATE_LOG = (LAG,)  # of the masses: an error of theirs, not a term
 SURE = 6.0  # 2 ln ratio
 GROUPS = (PLUMB, HEADING, DELAY, *GYRO, *torque_terms.GROUPS.values())
 Refused = set[tuple[str, ...]]
@@ -45,7 +56,7 @@ Refused = set[tuple[str, ...]]
 
 def is_of_sensors(group: tuple[str, ...]) -> bool:
     """Say whether a group is of errors of sensors, not of torques."""
-    return set(group) <= set(sensor_terms.TERMS)
+    return group == LATE_LOG or set(group) <= set(sensor_terms.TERMS)
 
 
 def candidates(model: RecordModel) -> list[tuple[str, ...]]:
@@ -57,6 +68,8 @@ def candidates(model: RecordModel) -> list[tuple[str, ...]]:
         found.append(DELAY)
     if camera and gyro:
         found += GYRO
+    if spans_of_travels(model) and not all(mass.logged_late for mass in model.testbed.masses):
+        found.append(LATE_LOG)
     found += list(torque_terms.GROUPS.values())
     sought = {*params.sensor, *params.terms}
     return [group for group in found if not sought.issuperset(group)]
@@ -72,7 +85,9 @@ def levelled(model: RecordModel) -> RecordModel:
 
 def with_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:
     """Return the model with a group of terms more."""
-    params = model.params
+    params, testbed = model.params, model.testbed
+    if group == LATE_LOG:
+        return replace(model, testbed=replace(testbed, masses=logged_late(testbed.masses)))
     if is_of_sensors(group):
         sensor = sensor_terms.among((*params.sensor, *group))
         return replace(model, params=replace(params, sensor=sensor))
@@ -118,14 +133,18 @@ def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
 def surplus(model: RecordModel, group: tuple[str, ...]) -> float:
     """Return 2 ln of how much likelier the record is with a group than without."""
     problem, jumps = posed_in(with_group(model, group), model.recording)
-    at = evaluate(problem, model.fitted.point, jumps)
-    B = np.array([name in group for name in problem.layout.names])
+    names = problem.layout.names
+    late, known = group == LATE_LOG, model.fitted.problem.layout.names
+    B = np.array([name not in known if late else name in group for name in names])
+    if not B.any():
+        return -np.inf
+    at = evaluate(problem, with_errors_of(problem, model.fitted), jumps)
     unit = np.where(B, 1.0, 1 / np.sqrt(np.diag(at.normal)))
-    unit[B] = plausible(model, group)
+    unit[B] = problem.prior.weight[B] ** -0.5 if late else plausible(model, group)
     normal = at.normal - np.diag(np.where(B, problem.prior.weight, 0.0))
     A, b = normal * np.outer(unit, unit), at.descent * unit
     rest = np.linalg.solve(A[np.ix_(~B, ~B)], A[np.ix_(~B, B)])
-    observed = np.eye(len(group)) + A[np.ix_(B, B)] - A[np.ix_(B, ~B)] @ rest
+    observed = np.eye(int(B.sum())) + A[np.ix_(B, B)] - A[np.ix_(B, ~B)] @ rest
     b_B = b[B] - rest.T @ b[~B]
     return float(b_B @ np.linalg.solve(observed, b_B) - np.linalg.slogdet(observed)[1])
 

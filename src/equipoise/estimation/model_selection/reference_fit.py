@@ -17,7 +17,7 @@ from equipoise.estimation.events.event_search import during_travels, without_sur
 from equipoise.estimation.events.event_time_covariance import with_moments
 from equipoise.estimation.events.record_model import RecordModel, jumping, refitted
 from equipoise.estimation.model_selection.decimation import condensed, with_few_bends
-from equipoise.estimation.model_selection.dense_record import surveyed_densely
+from equipoise.estimation.model_selection.dense_record import FINE, surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
 from equipoise.estimation.model_selection.survey import MOST_EVENTS, is_calm, survey
 from equipoise.estimation.model_selection.survey_reasons import (
@@ -32,7 +32,7 @@ from equipoise.estimation.model_selection.survey_reasons import (
     walk_reasons,
 )
 from equipoise.estimation.motion.unresolved_rates import without_unresolved_rates
-from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
+from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude, widening
 from equipoise.estimation.output_error.growing_horizon import at_rest
 from equipoise.estimation.output_error.outlier_rejection import without_outliers
 from equipoise.estimation.output_error.segment_jumps import carried
@@ -49,6 +49,7 @@ from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
 FEWEST = 4  # rows
+NEARLY_WHITE = 1.5  # times an interval is as wide as by white noise, chosen
 HELD_OUT = 0.25  # share of the record to predict instead of fit, for the residual
 
 
@@ -199,7 +200,19 @@ def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Est
     found = as_if_finished(model, recording, params)
     if not model.unfinished:
         return found
-    return cut_short(found, model.unfinished, found.outcome.usable and is_calm(model))
+    return cut_short(found, model.unfinished, found.outcome.usable and is_explained(model, found))
+
+
+def is_explained(model: RecordModel, found: Estimate) -> bool:
+    """Say whether what is left is noise, or so nearly that intervals count the rest.
+
+    With very many rows a test of whiteness finds what no interval would show; and cuts, which are
+    nodes too, what finer steps of integration change.
+    """
+    residual = found.residual
+    nearly = residual is not None and max(widening(residual), model.coloured) < NEARLY_WHITE
+    finer = refitted(replace(model, params=replace(model.params, fineness=FINE)))
+    return is_calm(finer, 0.0) if nearly else is_calm(finer)
 
 
 def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> Estimate:

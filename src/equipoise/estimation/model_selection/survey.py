@@ -22,12 +22,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.actuators.lags import logged_late
 from equipoise.estimation.events.event_search import (
-    CLEAR,
     colour_of,
     doubted,
-    during_travels,
     of_either_kind,
     pruned,
     settled,
@@ -114,21 +111,7 @@ def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> Rec
     found = of_either_kind(replace(model, events=(*model.events, event)), len(model.events))
     if farther(model, found) <= threshold(model.spacing):
         return None
-    return of_late_log(model, found) or found
-
-
-def of_late_log(model: RecordModel, shaken: RecordModel) -> RecordModel | None:
-    """Return the model with a late log of the masses instead of an event, if that does as well.
-
-    A recorded move is the first explanation of a jump at its time.
-    """
-    masses = model.testbed.masses
-    moving = during_travels(model, [shaken.events[-1].t])
-    if not any(moving) or all(mass.logged_late for mass in masses):
-        return None
-    late = replace(model, testbed=replace(model.testbed, masses=logged_late(masses)))
-    found = refitted(late)
-    return found if farther(found, shaken) < CLEAR else None
+    return found
 
 
 def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
@@ -162,12 +145,15 @@ def is_drowned(model: RecordModel) -> bool:
     return model.wanders and survey_reasons.driven(model) > survey_reasons.DRIVEN
 
 
-def is_calm(model: RecordModel) -> bool:
-    """Say whether what is left is white noise, and no cut has to be surprised."""
+def is_calm(model: RecordModel, white: float = WHITE) -> bool:
+    """Say whether what is left is white noise, and no cut has to be surprised.
+
+    By a probability of ``white`` at least; 0: where it is known to be white enough.
+    """
     fit, after = smoothed(model)
     undisturbed = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
-    white = min(portmanteau(left) for left in (fit.at.left_q, fit.at.left_w)) > WHITE
-    return white and bool(excesses(after, undisturbed).max() < WRONG)
+    whiteness = min(portmanteau(left) for left in (fit.at.left_q, fit.at.left_w))
+    return whiteness >= white and bool(excesses(after, undisturbed).max() < WRONG)
 
 
 def driven(model: RecordModel, most: int = MOST_EVENTS) -> RecordModel:
