@@ -50,6 +50,7 @@ from equipoise.model.testbed import Testbed
 
 FEWEST = 4  # rows
 NEARLY_WHITE = 1.5  # times an interval is as wide as by white noise, chosen
+NEARLY_CALM = 3.0  # root of the median surprise over its due, chosen: a torque below the noise
 HELD_OUT = 0.25  # share of the record to predict instead of fit, for the residual
 
 
@@ -212,7 +213,7 @@ def is_explained(model: RecordModel, found: Estimate) -> bool:
     residual = found.residual
     nearly = residual is not None and max(widening(residual), model.coloured) < NEARLY_WHITE
     finer = refitted(replace(model, params=replace(model.params, fineness=FINE)))
-    return is_calm(finer, 0.0) if nearly else is_calm(finer)
+    return is_calm(finer, 0.0, NEARLY_CALM) if nearly else is_calm(finer)
 
 
 def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> Estimate:

@@ -145,15 +145,16 @@ def is_drowned(model: RecordModel) -> bool:
     return model.wanders and survey_reasons.driven(model) > survey_reasons.DRIVEN
 
 
-def is_calm(model: RecordModel, white: float = WHITE) -> bool:
+def is_calm(model: RecordModel, white: float = WHITE, surprised: float = WRONG) -> bool:
     """Say whether what is left is white noise, and no cut has to be surprised.
 
-    By a probability of ``white`` at least; 0: where it is known to be white enough.
+    The former by a probability of ``white`` at least, the latter by less than ``surprised`` times
+    what is due.
     """
     fit, after = smoothed(model)
     undisturbed = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
     whiteness = min(portmanteau(left) for left in (fit.at.left_q, fit.at.left_w))
-    return whiteness >= white and bool(excesses(after, undisturbed).max() < WRONG)
+    return whiteness >= white and bool(excesses(after, undisturbed).max() < surprised)
 
 
 def driven(model: RecordModel, most: int = MOST_EVENTS) -> RecordModel:
