@@ -127,18 +127,30 @@ def open_rows(track: Samples, testbed: Testbed) -> Ints:
     return np.flatnonzero(np.append(steps, False) | np.append(False, steps))
 
 
+def rows_of_means(recording: Recording, testbed: Testbed) -> tuple[int, int]:
+    """Return how many rows of camera and gyro a mean is of; 1 where a record is not dense."""
+    if recording.rows < DENSE:
+        return 1, 1
+    # s, of a mean: for the fastest swing, and for events to be found
+    longest = min(TURNED / swing_of(recording, testbed), finest_spacing(recording) / ROWS)
+    attitude, rate = recording.attitude, recording.rate
+    return most_rows(attitude, longest, turned), most_rows(rate, longest, swept)
+
+
 def with_few_bends(recording: Recording, testbed: Testbed) -> Recording:
     """Return the recording with displacements as few straight lines.
 
     What these are off by, d, would make the platform lean by m g d / (J W^2), W being its fastest
-    swing: less than ``FINE`` of a row's noise. Unchanged where it would hide a stop.
+    swing: less than ``FINE`` of the noise of a row, or mean of rows, that the search is given.
+    Unchanged where it would hide a stop.
     """
     masses, sensors = recording.masses, (testbed.attitude, testbed.gyro)
     if masses is None or len(masses) < DENSEST:
         return recording
-    swing = swing_of(recording, testbed)
+    swing, means = swing_of(recording, testbed), rows_of_means(recording, testbed)
     units = (1.0, 1.0 / swing)  # a rate that is off turns the platform meanwhile
-    noise = min(s.noise * x for s, x in zip(sensors, units, strict=True) if s is not None)
+    sizes = zip(sensors, units, means, strict=True)
+    noise = min(s.noise * x / k**0.5 for s, x, k in sizes if s is not None)
     moment = float(np.linalg.eigvalsh(testbed.body.inertia_P)[0])
     heavy = np.array([mass.mass for mass in testbed.masses]) * testbed.gravity
     tolerance = FINE * noise * moment * swing**2 / heavy
@@ -152,11 +164,7 @@ def with_few_bends(recording: Recording, testbed: Testbed) -> Recording:
 def condensed(recording: Recording, testbed: Testbed) -> Condensed | None:
     """Return a dense record as one of means; None if it is not dense enough."""
     attitude, rate = recording.attitude, recording.rate
-    if recording.rows < DENSE:
-        return None
-    # s, of a mean: for the fastest swing, and for events to be found
-    longest = min(TURNED / swing_of(recording, testbed), finest_spacing(recording) / ROWS)
-    k_q, k_w = most_rows(attitude, longest, turned), most_rows(rate, longest, swept)
+    k_q, k_w = rows_of_means(recording, testbed)
     if k_q == k_w == 1:
         return None
     camera, gyro = testbed.attitude, testbed.gyro
@@ -168,4 +176,4 @@ def condensed(recording: Recording, testbed: Testbed) -> Condensed | None:
         rate = mean_rows(rate, k_w)
     few = replace(recording, attitude=attitude, rate=rate, attitude_norm=None)
     observed = replace(testbed, attitude=camera, gyro=gyro)
-    return Condensed(with_few_bends(few, observed), observed, k_q, k_w)
+    return Condensed(few, observed, k_q, k_w)

@@ -10,6 +10,7 @@ from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.method_contract import origin_of
+from equipoise.estimation.output_error.fit_visibility import visibility_of
 from equipoise.estimation.output_error.input_errors import (
     STEP,
     input_shifts,
@@ -30,22 +31,14 @@ from equipoise.estimation.parameters.fit_parameters import (
     unknowns_of,
 )
 from equipoise.estimation.parameters.flat_body import flat_reasons
-from equipoise.estimation.parameters.observability import (
-    OPEN,
-    Visibility,
-    examine_unheld,
-    natural_sizes,
-    scale_of,
-    without_multiples,
-)
+from equipoise.estimation.parameters.observability import Visibility
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
-from equipoise.maths.attitude import logarithm, to_matrix
+from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import inverse_where, lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
-from equipoise.model.arrays import Floats, Square
+from equipoise.model.arrays import Floats
 from equipoise.model.estimate import BODY, COM, END, Estimate, Parameter, Residual
 from equipoise.model.outcome import Outcome, OutcomeCode, outcome
-from equipoise.model.reasons.data_reasons import Unobservable
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
@@ -54,8 +47,6 @@ SURE = 4.0  # sd of a statistic before it counts as more than chance
 MOSTLY = 0.5  # of a variance, chosen: an input that gives more limits it
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
 LOST = np.deg2rad(3.0)  # rms an axis, chosen: no torque on a bearing puts a followed motion off so
-TILTED = 0.25  # rad, chosen: com x n is no straight line over more
-SHARE = 0.2  # of the tilt, chosen: its inverse is straight within a fifth, to 4 % of com
 BESIDE = 10.0  # times the noise, chosen: a camera so coarse may leave more
 UNSETTLED = outcome(Why.NOT_CONVERGED)
 
@@ -221,70 +212,6 @@ def prior_shifts(fitted: Fitted, rows: Floats, view: Visibility) -> tuple[list[s
     columns = list(sought.values())
     moved = (rows @ view.covariance[:, columns]) * np.sqrt(weight[columns])
     return list(sought), moved.T.reshape(-1, len(rows))
-
-
-def without_scale(view: Visibility, layout: Layout) -> Visibility:
-    """Return the view of a fit in which one moment of inertia was held only for the search."""
-    hidden = view.hidden.copy()
-    hidden[JP.start : layout.torques.stop] = True
-    return Visibility(view.covariance, hidden, (OPEN, *view.unobservable), True, view.unseen)
-
-
-def tilt_sd(fitted: Fitted, view: Visibility) -> float:
-    """Return how uncertain gravity's direction in the body is at the start, rad, its worst part."""
-    n = to_matrix(fitted.point.q0)[2]
-    across = np.eye(3) - np.outer(n, n)
-    spread = view.covariance[TURN, TURN] + view.unseen[TURN] @ view.unseen[TURN].T
-    return float(np.sqrt(np.linalg.eigvalsh(across @ spread @ across)[-1]))
-
-
-def is_tilt_open(fitted: Fitted, view: Visibility) -> bool:
-    """Say whether the tilt is so uncertain that com and tilt show as a product only.
-
-    A camera sees the tilt apart from com; a gyro sees com times the tilt, and the hyperbola on
-    which both lie is straight over a small part of either. Of a com that is held one lies on none.
-    """
-    problem, sd = fitted.problem, tilt_sd(fitted, view)
-    if problem.prior.held[R].any():
-        return False
-    tilt = float(np.linalg.norm(np.cross(problem.testbed.up, to_matrix(fitted.point.q0)[2])))
-    return sd > TILTED or (not len(problem.observed.attitude) and sd > SHARE * tilt)
-
-
-def without_com(view: Visibility, size: Floats) -> Visibility:
-    """Return the view of a fit that does not know the tilt.
-
-    Torque is m g com x n. Where n may be anything, com is so, too, though a line through the one
-    tilt at which the search ended seems to tell it.
-    """
-    hidden, directions = view.hidden.copy(), np.diag(size)[:, R]
-    hidden[R] = True
-    reasons = (*view.unobservable, Reason(Unobservable.TILT))
-    return replace(
-        view, hidden=hidden, unobservable=reasons, unseen=np.hstack([view.unseen, directions])
-    )
-
-
-def without_anchor(normal: Square, fitted: Fitted) -> Square:
-    """Return information without the prior that only keeps a search from wandering."""
-    prior = fitted.problem.prior
-    return normal - np.diag(np.where(prior.held, 0.0, prior.anchor))
-
-
-def visibility_of(fitted: Fitted) -> Visibility:
-    """Return covariance and visibility at a fit."""
-    problem, layout = fitted.problem, fitted.problem.layout
-    values = physical(fitted.point, problem.mass, layout)
-    size = natural_sizes(fitted.point, problem.mass, layout)
-    information = without_anchor(fitted.at.normal, fitted)
-    view = examine_unheld(
-        information, scale_of(values, size), size, layout.names, problem.prior.held
-    )
-    view = without_multiples(view, size)
-    view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
-    if is_tilt_open(fitted, view):
-        view = without_com(view, size)
-    return without_scale(view, layout) if problem.scale_open else view
 
 
 def smoothed_residual(fitted: Fitted) -> tuple[Smoothed | None, Residual]:
