@@ -1,7 +1,7 @@
 """Which torques of a fit its record supports, where each has a size that is known beforehand.
 
-For coefficients b with the prior N(0, P), and N(d, C) when the record counts, the record is likelier
-with them than without by
+For coefficients b with the prior N(0, P), and N(d, C) when the record counts, the record is
+likelier with them than without by
 
     2 ln ratio = d^T C^-1 d + ln det C - ln det P
 

@@ -1,6 +1,5 @@
 """The knowledge of a procedure so far: the whole record, and the one fit to it."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -87,35 +86,37 @@ def learn(
     does not show of them widens intervals. Once it supports them, they are found, and from then on
     as open as those that the testbed declares.
     """
+    testbed = as_if_stiff(testbed)
     recording = fresh if before is None else join(before.recording, fresh)
     found = () if before is None else before.found
-    knowledge = fitted_with(found, before, recording, testbed, allowed, considered)
-    more = supported(knowledge.estimate, undeclared(testbed, found, considered))
+    params = params_of(testbed, found, considered, allowed)
+    knowledge = fitted_in(params, before, recording, testbed, found)
+    more = supported(knowledge.estimate, params.typical)
     if not more:
         return knowledge
-    return fitted_with((*found, *more), knowledge, recording, testbed, allowed, considered)
+    found = among((*found, *more))
+    params = params_of(testbed, found, considered, allowed)
+    return fitted_in(params, knowledge, recording, testbed, found)
 
 
-def undeclared(
-    testbed: Testbed, found: tuple[str, ...], considered: Iterable[str]
-) -> tuple[str, ...]:
-    """Return the torques considered that are neither declared nor found."""
-    return among({*considered} - {*testbed.disturbances, *found})
+def params_of(
+    testbed: Testbed, found: tuple[str, ...], considered: tuple[str, ...], allowed: Budget
+) -> trajectory.Params:
+    """Return the options of a fit with torques that are declared, found, or else considered."""
+    open_terms = {*testbed.disturbances, *found}
+    typical = among({*considered} - open_terms)
+    terms = among({*open_terms, *considered})
+    return trajectory.Params(terms, use_prior=True, typical=typical, budget=allowed.renewed())
 
 
-def fitted_with(
-    found: tuple[str, ...],
+def fitted_in(
+    params: trajectory.Params,
     before: Knowledge | None,
     recording: Recording,
     testbed: Testbed,
-    allowed: Budget,
-    considered: tuple[str, ...],
+    found: tuple[str, ...],
 ) -> Knowledge:
     """Return the knowledge from a whole record, from where the search stood ``before``."""
-    testbed, budget = as_if_stiff(testbed), allowed.renewed()
-    typical = undeclared(testbed, found, considered)
-    terms = among((*testbed.disturbances, *found, *typical))
-    params = trajectory.Params(terms, use_prior=True, typical=typical, budget=budget)
     guess = None
     if before is not None:
         layout = trajectory.layout_of(recording, testbed, params)
@@ -125,7 +126,7 @@ def fitted_with(
     if found and estimate.outcome.usable:
         reasons = (*estimate.outcome.reasons, *reasons_of_added(found))
         estimate = replace(estimate, outcome=Outcome(reasons))
-    return Knowledge(recording, fitted, cut_short(estimate, budget.unfinished), found)
+    return Knowledge(recording, fitted, cut_short(estimate, params.budget.unfinished), found)
 
 
 def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:
