@@ -1,4 +1,4 @@
-"""Balancing a platform whose centre of mass drifts by 1 um/min, which nobody declared."""
+"""Balancing platforms that drift, or are damped, which nobody declared."""
 
 from dataclasses import replace
 
@@ -12,10 +12,18 @@ from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.simulation.bench import SimulatedBench
 from verification.drift import drifting
 
+SPUTNIX = read_preset("sputnix")
+
 
 def run(testbed, seed):
-    bench = SimulatedBench(testbed, seed)
+    bench = SimulatedBench(replace(testbed, disturbances=()), seed)
     return bench, list(balance(bench, BalanceOptions()))
+
+
+def greatest_error(bench, steps):
+    """Com's error at the verdict, worst axis, in its own sd."""
+    judged = steps[-1].verdict
+    return np.abs((judged.com - bench.truth().com) / judged.sd).max()
 
 
 def stated(steps):
@@ -23,31 +31,37 @@ def stated(steps):
     return [step for step in steps if any(r.code is Why.TERMS_TO_DECLARE for r in step.reasons)]
 
 
-@pytest.mark.parametrize("seed", [2, 8])
+@pytest.mark.parametrize("seed", [6, 8])
 def test_a_drift_that_nobody_declared_is_found_and_stated(seed):
-    """Com at the verdict within 4 sd (9 and 13 without drift in the model), and it passes."""
-    bench, steps = run(replace(drifting(seed), disturbances=()), seed)
-    judged = steps[-1].verdict
-    assert np.abs((judged.com - bench.truth().com) / judged.sd).max() < 4.0
-    assert judged.passed
+    """1 um/min: it passes, by the truth as well. Without drift: 3.1 sd, and a misfit at 12.6 sd."""
+    bench, steps = run(drifting(seed), seed)
+    assert steps[-1].verdict.passed
     assert np.all(np.abs(bench.truth().com - BalanceOptions().target) < BalanceOptions().tolerance)
+    assert greatest_error(bench, steps) < 3.0
     (step,) = stated(steps)
     assert "[disturbance] consider in the testbed file: drift" in step.sentence
     assert any(r.code is Why.TERMS_TO_DECLARE for r in steps[-1].estimate.outcome.reasons)
 
 
-def test_a_drift_that_does_not_show_is_in_the_interval_of_com():
-    """In 52 s 1 um/min does not show; com was 4.6 sd off. It is in the model, unstated."""
-    bench, steps = run(replace(drifting(1), disturbances=()), 1)
-    judged = steps[-1].verdict
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_drift_that_does_not_show_is_in_the_interval_of_com(seed):
+    """In less than a minute 1 um/min does not show; without it com is 4.6 and 8.8 sd off."""
+    bench, steps = run(drifting(seed), seed)
     assert not stated(steps)
-    assert steps[-1].estimate.has("drift_y")
-    assert np.abs((judged.com - bench.truth().com) / judged.sd).max() < 4.0
+    assert greatest_error(bench, steps) < 3.0
+
+
+def test_damping_that_nobody_declared_is_in_the_interval_and_is_no_drift():
+    """Five times what benches have, about every axis."""
+    damping = dict.fromkeys(GROUPS["viscous"], -3e-4)
+    bench, steps = run(replace(SPUTNIX, truth=replace(SPUTNIX.truth, torque=damping)), 1)
+    assert not stated(steps)
+    assert greatest_error(bench, steps) < 3.0
 
 
 def test_nothing_is_stated_of_a_platform_that_stands_still():
     """Nor is anything found: the drift's interval holds none."""
-    _, steps = run(read_preset("sputnix"), 3)
+    _, steps = run(SPUTNIX, 3)
     assert steps[-1].verdict.passed
     assert not stated(steps)
     estimate = steps[-1].estimate

@@ -15,7 +15,7 @@ import numpy as np
 
 from equipoise.estimation.model_selection.model_choice import SURE
 from equipoise.model.estimate import Estimate
-from equipoise.model.torque_terms import GROUPS, typical
+from equipoise.model.torque_terms import typical
 
 
 def support(estimate: Estimate, terms: tuple[str, ...]) -> float:
@@ -26,12 +26,6 @@ def support(estimate: Estimate, terms: tuple[str, ...]) -> float:
     return float(d @ np.linalg.solve(C, d) + np.linalg.slogdet(C)[1])
 
 
-def supported(estimate: Estimate, terms: tuple[str, ...]) -> tuple[str, ...]:
-    """Return those of the terms whose group the record supports for sure (``SURE``).
-
-    None of a fit that cannot be used.
-    """
-    if not estimate.outcome.usable:
-        return ()
-    groups = [tuple(term for term in group if term in terms) for group in GROUPS.values()]
-    return tuple(t for group in groups if group and support(estimate, group) > SURE for t in group)
+def is_supported(estimate: Estimate, terms: tuple[str, ...]) -> bool:
+    """Say whether a record supports terms for sure (``SURE``); an unusable fit supports none."""
+    return estimate.outcome.usable and support(estimate, terms) > SURE
