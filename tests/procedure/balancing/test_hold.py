@@ -13,7 +13,7 @@ from tests.support import thorough
 MINUTES = thorough.count(2, 1)
 HOLDING = HoldOptions(duration=60.0 * MINUTES)
 # Ten minutes of balancing find the inertia that a long hold needs; a short one does without.
-FIRST = replace(HOLDING.balancing, max_time=float(thorough.count(600, 120)))  # s
+FIRST = replace(HOLDING.balancing, max_time=float(thorough.count(600, 100)))  # s
 
 
 @pytest.fixture(scope="module")

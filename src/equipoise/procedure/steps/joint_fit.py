@@ -17,10 +17,9 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import GROUPS, TERMS, among
+from equipoise.model.torque_terms import GROUPS, among
 
 DRIFT = GROUPS["drift"]
-CONSIDERED = tuple(term for term in TERMS if term not in GROUPS["sag"])  # see ``as_if_stiff``
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,24 +78,22 @@ def learn(
     fresh: Recording,
     testbed: Testbed,
     allowed: Budget = UNLIMITED,
-    considered: tuple[str, ...] = CONSIDERED,
+    considered: tuple[str, ...] = DRIFT,
 ) -> Knowledge:
     """Return the knowledge with a fresh record added; the testbed's values are the prior.
 
     Torques that are ``considered`` are in the model, as large as benches have them: what the record
-    does not show of them widens intervals. Once it supports a drift among them, that is found, and
-    from then on as open as one that the testbed declares. The others are not: at small tilts they
-    may stand for sag, and a constant torque of any size for any centre of mass.
+    does not show of them widens intervals. Once it supports them, they are found, and from then on
+    as open as those that the testbed declares. Cannot tell them from torques that are neither.
     """
     testbed = as_if_stiff(testbed)
     recording = fresh if before is None else join(before.recording, fresh)
     found = () if before is None else before.found
     params = params_of(testbed, found, considered, allowed)
     knowledge = fitted_in(params, before, recording, testbed, found)
-    drift = tuple(term for term in DRIFT if term in params.typical)
-    if not is_supported(knowledge.estimate, drift):
+    if not is_supported(knowledge.estimate, params.typical):
         return knowledge
-    found = among((*found, *drift))
+    found = among((*found, *params.typical))
     params = params_of(testbed, found, considered, allowed)
     return fitted_in(params, knowledge, recording, testbed, found)
 
