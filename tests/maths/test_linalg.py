@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from equipoise.maths.linalg import (
+    eigen_symmetric,
     element_sizes,
     inverse_spd,
     inverse_where,
@@ -40,6 +41,17 @@ def test_six_numbers_there_and_back(six):
     matrix = unpack_symmetric(six)
     assert pack_symmetric(matrix).tolist() == six.tolist()
     assert (matrix == matrix.T).all()
+
+
+@pytest.mark.parametrize("rows", [3, 25, 40])
+def test_eigenvalues_and_vectors_reconstruct_a_symmetric_matrix(rows):
+    """V diag(values) V^T is the matrix 1 / (1 + i + j), V^T V the unit matrix; values ascend."""
+    k = np.arange(rows)
+    matrix = 1.0 / (1.0 + k[:, None] + k)
+    values, V = eigen_symmetric(matrix)
+    np.testing.assert_allclose((V * values) @ V.T, matrix, atol=1e-14)
+    np.testing.assert_allclose(V.T @ V, np.eye(rows), atol=1e-13)
+    assert (np.diff(values) >= 0).all()
 
 
 @pytest.mark.parametrize("powers", [(0, 0, 0, 0), (-8, 0, 6, 3), (10, -10, 0, 5)])

@@ -328,6 +328,7 @@ def test_what_a_law_claims_is_proved_by_what_comes_after():
     assert steps[2].verdict.passed
     assert steps[2].recording.span[0] >= steps[1].time
     assert bench.time == pytest.approx(1.5 + 30.0)
+    assert not steps[2].estimate.has("drift_z")  # over a swing com is taken to stand still
 
 
 def test_a_law_that_is_wrong_fails_by_the_proof():

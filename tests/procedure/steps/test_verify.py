@@ -4,16 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.linalg import block_diag
 
 from equipoise.model.estimate import Parameter
 from equipoise.model.move import Move
 from equipoise.model.reasons.step_reasons import MoveReason
+from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.units import UM
 from equipoise.procedure.steps.joint_fit import learn
 from equipoise.procedure.steps.verify import (
     FRESH,
     Aim,
-    drift_since,
+    com_then,
     fresh_enough,
     probability_within,
     verdict,
@@ -24,8 +26,8 @@ from tests.support.outcomes import of_use
 
 @pytest.fixture(scope="module")
 def known():
-    """A minute of camera, nothing moved."""
-    return learn(None, noisy(recording(60.0), 1), platform())
+    """A minute of camera, nothing moved, by a model without drift."""
+    return learn(None, noisy(recording(60.0), 1), platform(), considered=())
 
 
 def wide(known) -> np.ndarray:
@@ -99,17 +101,32 @@ def test_a_verdict_needs_fresh_data(known):
     assert not fresh_enough(known, 60.0 - FRESH + 0.1)
 
 
-def test_drift_since_the_move_is_no_contradiction(known):
-    """A drift of 1 um/min over 30 s moves the centre of mass 0.5 um beyond the prediction."""
-    drift = (1 / 60) * UM * np.array([1.0, -2.0, 0.0])
+def with_drift(known, drift, sd):
+    """The same knowledge with an independent drift (m/s) in its estimate."""
     extra = tuple(
-        Parameter(f"drift_{axis}", "m/s", float(rate), 1e-9)
+        Parameter(f"drift_{axis}", "m/s", float(rate), sd)
         for axis, rate in zip("xyz", drift, strict=True)
     )
-    estimate = replace(known.estimate, parameters=(*known.estimate.parameters, *extra))
-    drifting = replace(known, estimate=estimate)
-    np.testing.assert_allclose(drift_since(drifting, 30.0), [0.5 * UM, -1.0 * UM, 0.0], rtol=1e-12)
-    np.testing.assert_array_equal(drift_since(known, 30.0), np.zeros(3))
-    before = known.com - drift_since(drifting, 30.0)
+    covariance = block_diag(known.estimate.covariance, sd**2 * np.eye(3))
+    parameters = (*known.estimate.parameters, *extra)
+    estimate = replace(known.estimate, parameters=parameters, covariance=covariance)
+    return replace(known, estimate=estimate)
+
+
+def test_a_drift_that_is_not_known_is_no_contradiction(known):
+    """Of a drift of 0 +- 1 um/min over 30 s, 1.5 um are 3 sd; without drift far more than 4."""
+    move = Move({}, 0.0, 1.0, known.com + 1.5 * UM, 1e-18 * np.eye(3), MoveReason.TO_TARGET)
+    aim, vague = Aim(known.com, wide(known)), with_drift(known, np.zeros(3), UM / 60)
+    assert verdict(vague, move, 30.0, aim).passed
+    assert [r.code for r in verdict(known, move, 30.0, aim).reasons] == [VerdictReason.MOVE_MISSED]
+
+
+def test_drift_since_the_move_is_no_contradiction(known):
+    """A drift of 1 um/min over 30 s moves the centre of mass 0.5 um beyond the prediction."""
+    drifting = with_drift(known, (1 / 60) * UM * np.array([1.0, -2.0, 0.0]), 1e-9)
+    before, sd = com_then(drifting, 30.0)
+    np.testing.assert_allclose(known.com - before, [0.5 * UM, -1.0 * UM, 0.0], rtol=1e-9)
+    np.testing.assert_allclose(sd, np.hypot(known.sd, 30e-9), rtol=1e-12)
+    np.testing.assert_array_equal(com_then(known, 30.0)[0], known.com)
     move = Move({}, 0.0, 1.0, before, 1e-18 * np.eye(3), MoveReason.TO_TARGET)
     assert verdict(drifting, move, 30.0, Aim(known.com, wide(known))).passed

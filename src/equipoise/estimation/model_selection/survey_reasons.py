@@ -46,12 +46,17 @@ def added(model: RecordModel, requested: Params) -> tuple[str, ...]:
     return tuple(t for t in (*model.params.sensor, *model.params.terms) if t not in have)
 
 
-def term_reasons(model: RecordModel, requested: Params) -> list[Reason]:
+def term_reasons(model: RecordModel, requested: Params) -> tuple[Reason, ...]:
     """Return which terms were added, and which of them a testbed file can declare."""
-    groups = tuple(dict.fromkeys(term.split("_")[0] for term in added(model, requested)))
+    return reasons_of_added(added(model, requested))
+
+
+def reasons_of_added(terms: tuple[str, ...]) -> tuple[Reason, ...]:
+    """Return that these terms were added, and which of them a testbed file can declare."""
+    groups = tuple(dict.fromkeys(term.split("_")[0] for term in terms))
     torques = tuple(group for group in groups if group in torque_terms.GROUPS)
-    found = [Reason(Why.TERMS_ADDED, groups)] if groups else []
-    return [*found, Reason(Why.TERMS_TO_DECLARE, torques)] if torques else found
+    found = (Reason(Why.TERMS_ADDED, groups),) if groups else ()
+    return (*found, Reason(Why.TERMS_TO_DECLARE, torques)) if torques else found
 
 
 def log_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:

@@ -113,10 +113,10 @@ def prior_of(
     return Prior(mean, sd**-2 + anchor, anchor, held)
 
 
-def with_typical_torques(prior: Prior, layout: Layout) -> Prior:
-    """Return a prior that also knows how large torques are on benches."""
-    weight = prior.weight.copy()
-    weight[layout.torques] += np.array([typical(term) for term in layout.terms]) ** -2.0
+def with_typical_torques(prior: Prior, layout: Layout, names: tuple[str, ...]) -> Prior:
+    """Return a prior that also knows how large some torques are on benches."""
+    weight, size = prior.weight.copy(), np.array([typical(term) for term in layout.terms])
+    weight[layout.torques] += np.where(np.isin(layout.terms, names), size**-2.0, 0.0)
     return replace(prior, weight=weight)
 
 

@@ -77,7 +77,7 @@ class Params:
     robust: bool = False  # Huber's loss
     fineness: float = 1.0  # by which integration steps are shorter than estimates need
     travels_count: bool = True  # masses went as recorded, so that travels give the scale
-    typical: bool = False  # torques are as large as benches have them (``model.torque_terms``)
+    typical: tuple[str, ...] = ()  # torques that are as large as benches have them
     budget: Budget = UNLIMITED  # of the search
 
 
@@ -136,7 +136,7 @@ def problem_of(
     hold = held_names(recording, testbed, params)
     prior = prior_of(testbed, errors, layout, params.use_prior, hold, torque_anchor)
     if params.typical:
-        prior = with_typical_torques(prior, layout)
+        prior = with_typical_torques(prior, layout, params.typical)
     limit = HUBER if params.robust else 0.0
     longest = longest_step(testbed, fastest_rate(recording), recording.rows) / params.fineness
     posed = pose(

@@ -22,7 +22,7 @@ from equipoise.estimation.parameters.fit_parameters import (
     Unknowns,
     term_sizes,
 )
-from equipoise.maths.linalg import symmetrise
+from equipoise.maths.linalg import eigen_symmetric, symmetrise
 from equipoise.model.arrays import Bools, Floats, Square
 from equipoise.model.reasons.data_reasons import Unobservable
 from equipoise.model.reasons.reason import Reason
@@ -78,7 +78,7 @@ def describe(direction: Floats, names: tuple[str, ...]) -> Reason:
 
 def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, ...]) -> Visibility:
     """Return covariance, visibility and the directions that are not observable."""
-    values, vectors = np.linalg.eigh(symmetrise(information * size[:, None] * size))
+    values, vectors = eigen_symmetric(symmetrise(information * size[:, None] * size))
     unseen = values < OBSERVABLE
     good = vectors[:, ~unseen]
     weak, reported = vectors[:, unseen], np.maximum(values[unseen], 1e-30)

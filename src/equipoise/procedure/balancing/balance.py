@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.move import Move
@@ -22,11 +23,11 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
-from equipoise.procedure.steps.plain_steps import measurement_step, verdict_step
+from equipoise.procedure.steps.plain_steps import com_step, measurement_step, verdict_step
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
-from equipoise.procedure.steps.verify import Aim, at, fresh_enough, is_within, verdict
+from equipoise.procedure.steps.verify import Aim, fresh_enough, is_within, verdict
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +80,11 @@ def balance(
         fresh = join(before, fresh)
     progress = Progress(learn(None, fresh, bench.testbed, options.budget), still_since=began)
     yield measurement_step(bench.time, fresh)
+    stated: tuple[str, ...] = ()
     while True:
+        if progress.knowledge.found != stated:
+            stated = progress.knowledge.found
+            yield com_step(bench.time, progress.knowledge, reasons_of_added(stated))
         why = reason_to_stop(bench, progress, options, began)
         if why is not None:
             bench.stop()
@@ -91,7 +96,7 @@ def balance(
             knowledge = learn(progress.knowledge, fresh, bench.testbed, options.budget)
             progress = replace(progress, knowledge=knowledge)
             continue
-        yield estimate_step(bench, progress)
+        yield com_step(bench.time, progress.knowledge)
         knowledge = progress.knowledge
         reason = reason_of(knowledge, bench.testbed, option, options.target)
         now = knowledge.displacement
@@ -226,13 +231,6 @@ def announced(move: Move) -> tuple[Reason, ...]:
     """Return why masses are moved, and the predicted result."""
     com = axes_of("com", move.predicted_com)
     return one_reason(move.reason, **com, travel=move.travel, duration=move.duration)
-
-
-def estimate_step(bench: Bench, progress: Progress) -> Step:
-    """Return the step of an estimate."""
-    knowledge = progress.knowledge
-    reasons = one_reason(StepReason.COM_AT, **at(knowledge.com, knowledge.sd))
-    return Step("estimate", bench.time, reasons, knowledge.recording, knowledge.estimate)
 
 
 def final(bench: Bench, progress: Progress, options: BalanceOptions, why: StepReason) -> Step:

@@ -211,7 +211,8 @@ def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
     if tilted(fresh, bench.testbed):
         bench.stop()
         return stop_step(bench)
-    knowledge = learn(None, fresh, bench.testbed.without("drift"), options.budget)
+    testbed = bench.testbed.without("drift")
+    knowledge = learn(None, fresh, testbed, options.budget, considered=())
     judged = verdict(knowledge, None, began, options)
     return verdict_step(bench.time, judged, judged.reasons, knowledge.recording,
                         knowledge.estimate)  # fmt: skip

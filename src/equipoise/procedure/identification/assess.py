@@ -43,7 +43,7 @@ from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import among
+from equipoise.model.torque_terms import TERMS, among
 from equipoise.model.verdict import Verdict, VerdictOutcome, outcome_of
 from equipoise.procedure.identification.cross_checks import (
     KNOWN,
@@ -127,7 +127,7 @@ def fit_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Fi
         among({*testbed.disturbances, *options.terms}),
         use_prior=True,
         hold=options.hold,
-        typical=True,
+        typical=TERMS,
         budget=options.budget.renewed(),
     )
     unbalanced = replace(testbed, com_sd=np.full(3, UNKNOWN_COM))

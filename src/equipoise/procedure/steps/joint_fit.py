@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.actuators.sliding_masses import shift_by, shift_by_travel
+from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
+from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.solution import Fitted
@@ -12,8 +14,12 @@ from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns
 from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
 from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.estimate import Estimate
+from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import GROUPS, among
+
+DRIFT = GROUPS["drift"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,6 +29,7 @@ class Knowledge:
     recording: Recording
     fitted: Fitted
     estimate: Estimate
+    found: tuple[str, ...] = ()  # torques that nobody declared and the record supports
 
     @property
     def com(self) -> Vector3:
@@ -67,21 +74,58 @@ def as_if_stiff(testbed: Testbed) -> Testbed:
 
 
 def learn(
-    before: Knowledge | None, fresh: Recording, testbed: Testbed, allowed: Budget = UNLIMITED
+    before: Knowledge | None,
+    fresh: Recording,
+    testbed: Testbed,
+    allowed: Budget = UNLIMITED,
+    considered: tuple[str, ...] = DRIFT,
 ) -> Knowledge:
-    """Return the knowledge with a fresh record added; the testbed's values are the prior."""
+    """Return the knowledge with a fresh record added; the testbed's values are the prior.
+
+    Torques that are ``considered`` are in the model, as large as benches have them: what the record
+    does not show of them widens intervals. Once it supports them, they are found, and from then on
+    as open as those that the testbed declares. Cannot tell them from torques that are neither.
+    """
     testbed = as_if_stiff(testbed)
-    budget = allowed.renewed()
-    params = trajectory.Params(testbed.disturbances, use_prior=True, budget=budget)
-    if before is None:
-        recording, guess = fresh, None
-    else:
-        recording = join(before.recording, fresh)
+    recording = fresh if before is None else join(before.recording, fresh)
+    found = () if before is None else before.found
+    params = params_of(testbed, found, considered, allowed)
+    knowledge = fitted_in(params, before, recording, testbed, found)
+    if not is_supported(knowledge.estimate, params.typical):
+        return knowledge
+    found = among((*found, *params.typical))
+    params = params_of(testbed, found, considered, allowed)
+    return fitted_in(params, knowledge, recording, testbed, found)
+
+
+def params_of(
+    testbed: Testbed, found: tuple[str, ...], considered: tuple[str, ...], allowed: Budget
+) -> trajectory.Params:
+    """Return the options of a fit with torques that are declared, found, or else considered."""
+    open_terms = {*testbed.disturbances, *found}
+    typical = among({*considered} - open_terms)
+    terms = among({*open_terms, *considered})
+    return trajectory.Params(terms, use_prior=True, typical=typical, budget=allowed.renewed())
+
+
+def fitted_in(
+    params: trajectory.Params,
+    before: Knowledge | None,
+    recording: Recording,
+    testbed: Testbed,
+    found: tuple[str, ...],
+) -> Knowledge:
+    """Return the knowledge from a whole record, from where the search stood ``before``."""
+    guess = None
+    if before is not None:
         layout = trajectory.layout_of(recording, testbed, params)
         guess = carried(before.fitted.point, before.fitted.problem.layout, layout)
     fitted = trajectory.fit(recording, testbed, params, guess)
-    estimate = cut_short(conclude(fitted, trajectory.METHOD, recording), budget.unfinished)
-    return Knowledge(recording, fitted, estimate)
+    estimate = conclude(fitted, trajectory.METHOD, recording)
+    if found and estimate.outcome.usable:
+        reasons = (*estimate.outcome.reasons, *reasons_of_added(found))
+        estimate = replace(estimate, outcome=Outcome(reasons))
+    return Knowledge(recording, fitted, cut_short(estimate, params.budget.unfinished), found)
 
 
 def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:

@@ -6,6 +6,8 @@ from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.verdict import Verdict
+from equipoise.procedure.steps.joint_fit import Knowledge
+from equipoise.procedure.steps.verify import at
 
 
 def measurement_step(
@@ -26,6 +28,12 @@ def verdict_step(
     """Return the verification, or the stop where the verdict is another."""
     kind = "verify" if verdict.passed else "stop"
     return Step(kind, time, reasons, recording, estimate, verdict=verdict)
+
+
+def com_step(time: float, knowledge: Knowledge, news: tuple[Reason, ...] = ()) -> Step:
+    """Return the step of what is known of the centre of mass, and what is new of the model."""
+    reasons = (*one_reason(StepReason.COM_AT, **at(knowledge.com, knowledge.sd)), *news)
+    return Step("estimate", time, reasons, knowledge.recording, knowledge.estimate)
 
 
 def estimate_step(time: float, estimate: Estimate) -> Step:

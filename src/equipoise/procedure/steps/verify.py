@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.special import ndtr
 
-from equipoise.control.plant.swing_estimates import drift_of
 from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.gaussian_length import SURE, Bounded
 from equipoise.model.arrays import Matrix3, Vector3
@@ -22,7 +21,7 @@ from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.gaussian_box import bounded_use, probability_inside
-from equipoise.procedure.steps.joint_fit import Knowledge
+from equipoise.procedure.steps.joint_fit import DRIFT, Knowledge
 
 CONTRADICTION = 4.0  # sd between what a move predicted and what was found
 FRESH = 8.0  # s, chosen: least record since the last move for a verdict
@@ -60,9 +59,14 @@ def fresh_misfit(knowledge: Knowledge, since: float) -> float:
     return (float(np.mean(left**2)) - 1.0) / float(np.sqrt(2.0 / left.size))
 
 
-def drift_since(knowledge: Knowledge, since: float) -> Vector3:
-    """Return how far the centre of mass has drifted (m) since a time (s), as far as is known."""
-    return (knowledge.recording.span[1] - since) * drift_of(knowledge.estimate)
+def com_then(knowledge: Knowledge, since: float) -> tuple[Vector3, Vector3]:
+    """Return the centre of mass less its drift since a time (s), as far as is known, and sd (m)."""
+    estimate, seconds = knowledge.estimate, knowledge.recording.span[1] - since
+    drifts = [(k, name) for k, name in enumerate(DRIFT) if estimate.has(name)]
+    rows = np.hstack([np.eye(3), -seconds * np.eye(3)[:, [k for k, _ in drifts]]])
+    names = (*knowledge.standing, *(name for _, name in drifts))
+    spread = rows @ estimate.covariance_of(names) @ rows.T
+    return rows @ estimate.values(names), np.sqrt(np.diag(spread))
 
 
 def verdict(knowledge: Knowledge, move: Move | None, since: float, aim: Aim) -> Verdict:
@@ -73,9 +77,9 @@ def verdict(knowledge: Knowledge, move: Move | None, since: float, aim: Aim) -> 
     if fresh_misfit(knowledge, since) > CONTRADICTION:
         return Verdict((Reason(Why.RECORD_MISFITS),), com, sd)
     if move is not None:
-        off = com - move.predicted_com - drift_since(knowledge, since)
+        then, own = com_then(knowledge, since)
         spread = np.sqrt(np.diag(move.predicted_covariance))
-        if np.any(np.abs(off) > CONTRADICTION * np.hypot(spread, sd)):
+        if np.any(np.abs(then - move.predicted_com) > CONTRADICTION * np.hypot(spread, own)):
             return Verdict((Reason(Why.MOVE_MISSED, (), at(com, sd)),), com, sd)
     return judged(com, knowledge.covariance, aim)
 
