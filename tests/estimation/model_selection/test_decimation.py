@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.actuators.lags import logged_late
 from equipoise.estimation.model_selection import initial_model, reference_fit
 from equipoise.estimation.model_selection.decimation import (
     DENSE,
@@ -16,8 +17,14 @@ from equipoise.estimation.model_selection.decimation import (
     most_rows,
     swept,
     turned,
+    with_few_bends,
 )
-from equipoise.estimation.model_selection.dense_record import first_gap, moved, with_noise_of
+from equipoise.estimation.model_selection.dense_record import (
+    first_gap,
+    moved,
+    with_all_rows,
+    with_noise_of,
+)
 from equipoise.estimation.model_selection.survey import survey
 from equipoise.estimation.output_error.problem import quickest_swing
 from equipoise.estimation.output_error.solution import settle
@@ -149,7 +156,7 @@ def test_displacements_in_few_lines_are_off_by_little():
     t = np.arange(0.0, DURATION, 0.02)
     sag = 1e-4 * np.sin(0.2 * t)[:, None] * [1.0, 0.5, -1.0]
     record = replace(dense(), masses=Samples(t, sag))
-    few = condensed(record, FAST).recording.masses
+    few = with_few_bends(record, FAST).masses
     off = np.column_stack([np.interp(t, few.t, x) for x in few.values.T]) - sag
     lean = 0.0156 * 9.81 * np.abs(off).max() / (0.35 * quickest_swing(platform()) ** 2)
     assert 0.1 < lean / (0.01 * FAST.attitude.noise / 2) < 1.2
@@ -162,6 +169,15 @@ def test_noise_found_in_means_is_brought_back_to_rows():
     problem = fit(few.recording, few.testbed, Params(), guess=None)
     model = replace(survey(few.recording, few.testbed, Params(), problem), testbed=loud)
     assert with_noise_of(few, model, FAST).attitude.noise == pytest.approx(4e-3)
+
+
+def test_a_log_that_is_late_is_so_for_all_rows():
+    few = condensed(noisy(dense(), 0), FAST)
+    late = replace(few.testbed, masses=logged_late(few.testbed.masses))
+    fitted = fit(few.recording, few.testbed, Params(), guess=None)
+    model = replace(survey(few.recording, few.testbed, Params(), fitted), testbed=late)
+    whole = with_all_rows(few, model, dense(), FAST)
+    assert all(mass.logged_late for mass in whole.testbed.masses)
 
 
 def test_the_start_is_given_the_rows_before_the_first_gap():

@@ -7,10 +7,17 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.model_selection.reference_fit import estimate
-from equipoise.estimation.output_error.trajectory import Params, fastest_rate, fit
+from equipoise.estimation.output_error.solution import settle
+from equipoise.estimation.output_error.trajectory import (
+    Params,
+    fastest_rate,
+    fit,
+    problem_of,
+    upright,
+)
 from equipoise.estimation.parameters import fit_parameters
 from equipoise.estimation.parameters.fit_parameters import Unknowns, physical
-from equipoise.maths.attitude import difference, exponential, logarithm, multiply
+from equipoise.maths.attitude import difference, exponential, logarithm, multiply, to_matrix
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM as COM_NAMES
@@ -247,6 +254,21 @@ def test_gyro_alone_does_not_see_heading():
     for name, true in zip((*COM_NAMES, *INERTIA_NAMES), (*COM, *INERTIA), strict=True):
         parameter = found.parameters[found.index(name)]
         assert abs(parameter.value - true) < 4 * parameter.sd < np.inf
+
+
+def test_gyro_alone_is_of_a_platform_that_stands_upright():
+    """m g com x n is the same with both reversed: a search that ended there is turned over."""
+    testbed = replace(platform(gyro=True), attitude=None)
+    record = noisy(clean(moved=False, gyro=20.0, camera=0.0), 1)
+    problem = problem_of(record, testbed, Params(hold=("inertia_P_zz",)))
+    truth = fit(record, testbed, Params(hold=("inertia_P_zz",))).point
+    over = multiply(exponential(np.array([np.pi, 0.0, 0.0])), truth.q0)
+    hanging = settle(problem, replace(truth, q0=over, com=-truth.com))
+    assert to_matrix(hanging.point.q0)[2, 2] < -0.9
+    found = upright(hanging)
+    assert to_matrix(found.point.q0)[2, 2] > 0.9
+    np.testing.assert_allclose(found.point.com, truth.com, atol=1e-7)
+    assert upright(found) is found
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])

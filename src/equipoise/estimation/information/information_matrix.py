@@ -23,11 +23,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.output_error.fit_estimate import (
-    parameters_of,
-    visibility_of,
-    without_anchor,
-)
+from equipoise.estimation.output_error.fit_estimate import parameters_of
+from equipoise.estimation.output_error.fit_visibility import visibility_of, without_anchor
 from equipoise.estimation.output_error.free_vertical import with_free_vertical
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
