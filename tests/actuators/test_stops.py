@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.mass_errors import mass_errors
-from equipoise.actuators.stops import response, travels
+from equipoise.actuators.stops import response, stops_of, travels
 from equipoise.model.recording import Samples
 from tests.support.builders import sliding_masses
 
@@ -35,6 +35,16 @@ def test_a_travel_of_many_rows_is_one():
     t = np.concatenate([np.arange(0.0, 10), np.linspace(10, 11, 11), np.arange(12.0, 20)])
     d = np.interp(t, [10, 11], [0, 0.01]) + 1e-5 * (-1.0) ** np.arange(len(t))
     assert travels(t, d, SPEED) == [(10, 20)]
+
+
+def test_a_travel_that_is_logged_in_steps_has_one_stop():
+    """10 mm in steps of 2 mm each 0.2 s, at 5 s: no stop between two; one of 4 s at 20 s is one."""
+    t = np.arange(0.0, 30.0, 0.05)
+    steps = 2e-3 * np.clip(np.floor((t - 5.0) / 0.2), 0, 5)
+    coarse = replace(X, resolution=2e-3, speed=0.05)  # a step lasts 0.8 s at the least speed
+    assert len(travels(t, steps, coarse.speed)) == 5
+    assert len(stops_of(t, steps, coarse)) == 1
+    assert len(stops_of(t, steps + 2e-3 * (t > 20.0) + 2e-3 * (t > 24.0), coarse)) == 3
 
 
 def test_standing_still_has_no_travel():

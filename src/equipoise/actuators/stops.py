@@ -3,10 +3,12 @@
 A mass that is commanded to d stops at d + error, with one error for each stop. Between stops the
 error changes in proportion to the travel of the mass, which waits while a play is taken up
 (``lost_motion``). At home the error is zero by definition: home is where the mass properties are
-stated.
+stated. A travel that is logged in steps is one: a mass that is at the same place for a moment does
+not stand there.
 """
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +18,7 @@ from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
 STILL = 0.05  # of the mass's speed, chosen: slower than this is standing still
+STAND = 0.5  # s, chosen: between two steps of one travel, or less
 
 
 class MassError(NamedTuple):
@@ -38,6 +41,22 @@ def travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:
     return [(int(a), int(b)) for a, b in zip(first, last, strict=True)]
 
 
+def joined(t: Series1, travelled: list[tuple[int, int]], pause: float) -> list[tuple[int, int]]:
+    """Return first and last rows of travels, those with less than ``pause`` (s) between as one."""
+    starts = [k for k, (a, b) in enumerate(pairwise(travelled), 1) if t[b[0]] - t[a[1]] >= pause]
+    bounds = [0, *starts, len(travelled)]
+    groups = (travelled[a:b] for a, b in pairwise(bounds))
+    return [(group[0][0], group[-1][1]) for group in groups if group]
+
+
+def stand_of(mass: SlidingMass) -> float:
+    """Return how long (s) a mass must be at one place in a log to stand there.
+
+    One that travels as slowly as counts is logged at the same place for resolution / speed.
+    """
+    return max(STAND, mass.resolution / (STILL * mass.speed))
+
+
 def response(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -> Floats:
     """Return the share of the error of one stop at each row: up, on, down."""
     before, after = t[list(arrival)], t[list(departure)]
@@ -48,7 +67,7 @@ def response(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -
 
 def stops_of(t: Series1, d: Series1, mass: SlidingMass) -> list[Floats]:
     """Return the share of the error of each stop of one mass at each row, home excepted."""
-    ways = travels(t, d, mass.speed)
+    ways = joined(t, travels(t, d, mass.speed), stand_of(mass))
     bounds = [(0, 0), *ways, (len(d) - 1, len(d) - 1)]
     stands = [response(t, bounds[k], bounds[k + 1]) for k in range(len(bounds) - 1)]
     return stands if abs(d[0]) > mass.accuracy else stands[1:]

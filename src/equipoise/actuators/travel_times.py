@@ -20,14 +20,13 @@ Cannot see a speed that changes within a step but by its mean time.
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.actuators.lags import is_command
-from equipoise.actuators.stops import is_travelling, travels
+from equipoise.actuators.stops import is_travelling, joined, travels
 from equipoise.model.arrays import Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -62,14 +61,9 @@ class TimedTravel(NamedTuple):
 def merged_travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:
     """Return first and last rows of travels, those with a short pause between as one."""
     found, pause = travels(t, d, speed), PAUSE
-    while True:
-        starts = [k for k in range(1, len(found)) if t[found[k][0]] - t[found[k - 1][1]] >= pause]
-        bounds = [0, *starts, len(found)]
-        if len(bounds) - 1 <= MOST or pause > t[-1] - t[0]:
-            break
+    while len(joined(t, found, pause)) > MOST and pause <= t[-1] - t[0]:
         pause *= 2
-    groups = (found[a:b] for a, b in pairwise(bounds))
-    return [(group[0][0], group[-1][1]) for group in groups if group]
+    return joined(t, found, pause)
 
 
 def timed(t: Series1, d: Series1, speed: float) -> list[TimedTravel]:
