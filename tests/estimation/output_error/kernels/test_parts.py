@@ -1,5 +1,6 @@
 """A record's local model is the same, whether each part has all columns or its own alone."""
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -119,3 +120,13 @@ def test_cuts_are_where_parts_begin():
     np.testing.assert_array_equal(what.parts.nodes[what.parts.stretch], what.cuts.nodes)
     again = parts_of(problem.line, what.cuts.nodes, problem.columns)
     np.testing.assert_array_equal(again.nodes, what.parts.nodes)
+
+
+def test_a_grid_of_one_node_has_no_part():
+    problem = problem_with(())
+    line = problem.line._replace(t=problem.line.t[:1], known=problem.line.known[:1])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        parts = parts_of(line, np.array([0, 0]), problem.columns)
+    assert len(parts.nodes) == 1
+    assert len(parts.kinds) == 0

@@ -95,6 +95,8 @@ def stands(values: Floats, tolerance: Floats, still: Bools) -> None:
 
 def wavering(shares: Floats) -> Bools:
     """Return which shares (n + 1, f) of errors vary all the time, as displacements measured do."""
+    if len(shares) < 2:  # a grid of one node, of a record of one row
+        return np.zeros(shares.shape[1], dtype=np.bool_)
     often = np.median(np.abs(np.diff(shares, axis=0)), axis=0)
     return often > EXACT * np.abs(shares).max(axis=0)
 
