@@ -116,11 +116,16 @@ INDEXED = [by_index, by_topic, by_message_index]
 SCANNING = [one_by_one, by_us]
 
 
+@functools.cache
+def everything():
+    """Return what the whole record holds: rows, a scene for each place, events."""
+    return by_us(recorded()[0])
+
+
 def wanted(chunks=CHUNKS):
-    """Return what a record of so many chunks holds: rows, a scene for each place, events."""
-    found = by_us(recorded()[0])
+    """Return what a record of so many chunks holds."""
     last = 10**18 + chunks * 500_000_000
-    return [each for each in found if each[1] < last]
+    return [each for each in everything() if each[1] < last]
 
 
 def test_the_record_holds_all_that_was_written():
