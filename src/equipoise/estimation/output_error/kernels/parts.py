@@ -33,6 +33,7 @@ from equipoise.model.arrays import Bools, Floats, Ints
 
 SHORT = 16  # steps, chosen: a shorter stand is part of the travel
 LITTLE = 0.01  # of the greatest displacement, chosen: by which a mass that stands may be elsewhere
+MOSTLY = 0.5  # of the steps, chosen
 EXACT = 1e-9  # of the greatest share: by which one that is the same may vary
 CORE = 15  # columns: of the first state, J and the first moment
 J_AT, MU_AT = 6, 12  # where those of J and the first moment begin
@@ -94,11 +95,8 @@ def stands(values: Floats, tolerance: Floats, still: Bools) -> None:
 
 
 def wavering(shares: Floats) -> Bools:
-    """Return which shares (n + 1, f) of errors vary all the time, as displacements measured do."""
-    if len(shares) < 2:  # a grid of one node, of a record of one row
-        return np.zeros(shares.shape[1], dtype=np.bool_)
-    often = np.median(np.abs(np.diff(shares, axis=0)), axis=0)
-    return often > EXACT * np.abs(shares).max(axis=0)
+    """Return which shares (n + 1, f) of errors vary in most steps, as what is measured does."""
+    return np.count_nonzero(shares[1:] != shares[:-1], axis=0) > MOSTLY * (len(shares) - 1)
 
 
 def standing_runs(displacements: Floats, shares: Floats, loose: Bools) -> Bools:
@@ -112,6 +110,8 @@ def standing_runs(displacements: Floats, shares: Floats, loose: Bools) -> Bools:
 
 def parts_of(line: Timeline, cuts: Ints, columns: Columns) -> Parts:
     """Return the parts of a grid, cut at these nodes."""
+    if not len(line.owners):
+        return whole_stretches(cuts, columns)
     errors, last = columns.kinds == ERROR, line.known.shape[1] - len(line.owners)
     displacements, shares = line.known[:, KNOWN_D:last], line.known[:, last:]
     loose = wavering(shares)
@@ -131,6 +131,19 @@ def parts_of(line: Timeline, cuts: Ints, columns: Columns) -> Parts:
         columns.kinds[places],
         columns.indices[places],
         places.astype(np.int64),
+    )
+
+
+def whole_stretches(cuts: Ints, columns: Columns) -> Parts:
+    """Return the parts of a grid without errors: from cut to cut, with all columns each."""
+    stretches, n = len(cuts) - 1, len(columns.kinds)
+    return Parts(
+        cuts,
+        np.arange(stretches + 1),
+        n * np.arange(stretches + 1),
+        np.tile(columns.kinds, stretches),
+        np.tile(columns.indices, stretches),
+        np.tile(np.arange(n), stretches),
     )
 
 
