@@ -51,9 +51,10 @@ def test_records_that_were_wrong_are_within_their_intervals(seed) -> None:
     assert max(map(abs, z.values())) < 4.0
 
 
-def test_a_log_that_is_late_gives_the_scale_and_says_so() -> None:
-    """Measured positions, stamped 61 ms late: this record called the move an event, no scale."""
-    record = corpus_record(71)
+@pytest.mark.parametrize("seed", [189, *thorough.some((71,), 0)])
+def test_a_log_that_is_late_gives_the_scale_and_says_so(seed) -> None:
+    """Measured positions, stamped late: record 71 called the move an event, and had no scale."""
+    record = corpus_record(seed)
     *_, last = identify(record.recording, record.testbed, IdentifyOptions("trajectory"))
     found = last.estimate
     (reason,) = [r for r in found.outcome.reasons if r.code is EstimateReason.LATE_LOG]
