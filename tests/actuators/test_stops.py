@@ -37,14 +37,21 @@ def test_a_travel_of_many_rows_is_one():
     assert travels(t, d, SPEED) == [(10, 20)]
 
 
-def test_a_travel_that_is_logged_in_steps_has_one_stop():
-    """10 mm in steps of 2 mm each 0.2 s, at 5 s: no stop between two; one of 4 s at 20 s is one."""
+def test_a_travel_that_is_logged_in_very_many_steps_has_one_stop():
+    """40 mm in steps of 1 mm each 0.2 s, from 5 s on: no stop between two; one of 4 s is one."""
+    t = np.arange(0.0, 30.0, 0.05)
+    steps = 1e-3 * np.clip(np.floor((t - 5.0) / 0.2), 0, 40)
+    coarse = replace(X, resolution=1e-3, speed=0.05)  # a step lasts 0.4 s at the least speed
+    assert len(travels(t, steps, coarse.speed)) == 40
+    assert len(stops_of(t, steps, coarse)) == 1
+    assert len(stops_of(t, steps + 1e-3 * (t > 20.0) + 1e-3 * (t > 24.0), coarse)) == 3
+
+
+def test_few_steps_have_an_error_each():
+    """Between two of five steps 0.2 s apart the mass is somewhere near: its log is that coarse."""
     t = np.arange(0.0, 30.0, 0.05)
     steps = 2e-3 * np.clip(np.floor((t - 5.0) / 0.2), 0, 5)
-    coarse = replace(X, resolution=2e-3, speed=0.05)  # a step lasts 0.8 s at the least speed
-    assert len(travels(t, steps, coarse.speed)) == 5
-    assert len(stops_of(t, steps, coarse)) == 1
-    assert len(stops_of(t, steps + 2e-3 * (t > 20.0) + 2e-3 * (t > 24.0), coarse)) == 3
+    assert len(stops_of(t, steps, replace(X, resolution=2e-3, speed=0.05))) == 5
 
 
 def test_standing_still_has_no_travel():

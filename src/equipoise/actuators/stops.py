@@ -3,8 +3,8 @@
 A mass that is commanded to d stops at d + error, with one error for each stop. Between stops the
 error changes in proportion to the travel of the mass, which waits while a play is taken up
 (``lost_motion``). At home the error is zero by definition: home is where the mass properties are
-stated. A travel that is logged in steps is one: a mass that is at the same place for a moment does
-not stand there.
+stated. A mass that is logged in steps is at one place for a moment: an error there says how far it
+really was between two steps. Where there are very many, such a travel is one, without them.
 """
 
 from collections.abc import Sequence
@@ -18,6 +18,7 @@ from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
 STILL = 0.05  # of the mass's speed, chosen: slower than this is standing still
+MANY = 30  # stops of one mass, chosen: a search carries the errors of so many
 STAND = 0.5  # s, chosen: between two steps of one travel, or less
 
 
@@ -67,7 +68,9 @@ def response(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -
 
 def stops_of(t: Series1, d: Series1, mass: SlidingMass) -> list[Floats]:
     """Return the share of the error of each stop of one mass at each row, home excepted."""
-    ways = joined(t, travels(t, d, mass.speed), stand_of(mass))
+    ways = travels(t, d, mass.speed)
+    if len(ways) > MANY:
+        ways = joined(t, ways, stand_of(mass))
     bounds = [(0, 0), *ways, (len(d) - 1, len(d) - 1)]
     stands = [response(t, bounds[k], bounds[k + 1]) for k in range(len(bounds) - 1)]
     return stands if abs(d[0]) > mass.accuracy else stands[1:]
