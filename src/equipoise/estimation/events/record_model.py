@@ -17,7 +17,7 @@ from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.output_error.segment_jumps import Jump, carried, inside, walk
 from equipoise.estimation.output_error.solution import Fitted, cost_of, finite_cost, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, problem_of
-from equipoise.estimation.parameters.fit_parameters import Unknowns
+from equipoise.estimation.parameters.fit_parameters import Unknowns, with_errors_of
 from equipoise.estimation.search_budget import Stage
 from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
 from equipoise.model.estimate import RATE
@@ -116,14 +116,12 @@ def fitted_in(
     jumps = model.fitted.problem.jumps
     old = tuple(replace(jump, t=now.get(jump.t, jump.t)) for jump in jumps)
     problem, first = jumping(model, model.recording, jumps_of(model, cuts), old)
-    return settle_pinned(problem, with_errors_of(problem, model.fitted), first, most)
+    return settle_pinned(problem, point_in(problem, model.fitted), first, most)
 
 
-def with_errors_of(problem: Problem, fitted: Fitted) -> Unknowns:
+def point_in(problem: Problem, fitted: Fitted) -> Unknowns:
     """Return the point of a fit with the errors of masses that a problem has; new ones are zero."""
-    names = problem.layout.errors
-    known = dict(zip(fitted.problem.layout.errors, fitted.point.error, strict=True))
-    return replace(fitted.point, error=np.array([known.get(name, 0.0) for name in names]))
+    return with_errors_of(fitted.point, fitted.problem.layout, problem.layout)
 
 
 def refitted(model: RecordModel, moved: tuple[Happening, ...] = ()) -> RecordModel:

@@ -32,8 +32,8 @@ from equipoise.estimation.events.record_model import (
     RecordModel,
     farther,
     improbability,
+    point_in,
     refitted,
-    with_errors_of,
 )
 from equipoise.estimation.model_selection.cross_validation import posed_in, predicts_better
 from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, with_free_vertical
@@ -138,7 +138,7 @@ def surplus(model: RecordModel, group: tuple[str, ...]) -> float:
     B = np.array([name not in known if late else name in group for name in names])
     if not B.any():
         return -np.inf
-    at = evaluate(problem, with_errors_of(problem, model.fitted), jumps)
+    at = evaluate(problem, point_in(problem, model.fitted), jumps)
     unit = np.where(B, 1.0, 1 / np.sqrt(np.diag(at.normal)))
     unit[B] = problem.prior.weight[B] ** -0.5 if late else plausible(model, group)
     normal = at.normal - np.diag(np.where(B, problem.prior.weight, 0.0))

@@ -17,7 +17,7 @@ from equipoise.estimation.events.event_search import during_travels, without_sur
 from equipoise.estimation.events.event_time_covariance import with_moments
 from equipoise.estimation.events.record_model import RecordModel, jumping, refitted
 from equipoise.estimation.model_selection.decimation import condensed, with_few_bends
-from equipoise.estimation.model_selection.dense_record import FINE, surveyed_densely
+from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
 from equipoise.estimation.model_selection.survey import MOST_EVENTS, is_calm, survey
 from equipoise.estimation.model_selection.survey_reasons import (
@@ -207,13 +207,11 @@ def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Est
 def is_explained(model: RecordModel, found: Estimate) -> bool:
     """Say whether what is left is noise, or so nearly that intervals count the rest.
 
-    With very many rows a test of whiteness finds what no interval would show; and cuts, which are
-    nodes too, what finer steps of integration change.
+    With very many rows a test of whiteness finds what no interval would show.
     """
     residual = found.residual
     nearly = residual is not None and max(widening(residual), model.coloured) < NEARLY_WHITE
-    finer = refitted(replace(model, params=replace(model.params, fineness=FINE)))
-    return is_calm(finer, 0.0, NEARLY_CALM) if nearly else is_calm(finer)
+    return is_calm(model, 0.0, NEARLY_CALM) if nearly else is_calm(model)
 
 
 def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> Estimate:

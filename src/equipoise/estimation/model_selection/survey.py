@@ -109,9 +109,7 @@ def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> Rec
         return None
     event = Happening(fit.problem.jumps[k].t, kind)
     found = of_either_kind(replace(model, events=(*model.events, event)), len(model.events))
-    if farther(model, found) <= threshold(model.spacing):
-        return None
-    return found
+    return found if farther(model, found) > threshold(model.spacing) else None
 
 
 def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:

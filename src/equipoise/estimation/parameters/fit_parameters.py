@@ -9,7 +9,7 @@ The inertia itself is kept as the six numbers of ``maths.pseudo_inertia``, so ev
 that can exist. What a step does to a point is in ``retraction``.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -164,3 +164,9 @@ def sensor_sizes(terms: tuple[str, ...], camera: AttitudeSensor | None) -> Float
 def physical(point: Unknowns, mass: float, layout: Layout) -> Floats:
     """Return the physical coordinates; the turn of the first attitude is zero at the point."""
     return retraction.coordinates(point.flat, mass, layout.slots)
+
+
+def with_errors_of(point: Unknowns, old: Layout, new: Layout) -> Unknowns:
+    """Return a point with the errors of masses of another layout, by name; new ones are zero."""
+    known = dict(zip(old.errors, point.error, strict=True))
+    return replace(point, error=np.array([known.get(name, 0.0) for name in new.errors]))

@@ -10,7 +10,7 @@ from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.solution import Fitted
-from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns
+from equipoise.estimation.parameters.fit_parameters import with_errors_of
 from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
 from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.estimate import Estimate
@@ -56,12 +56,6 @@ class Knowledge:
         """Reported displacements at the end, m."""
         masses = self.recording.masses
         return np.zeros(0) if masses is None else masses.values[-1]
-
-
-def carried(point: Unknowns, old: Layout, new: Layout) -> Unknowns:
-    """Return a point with the displacement errors of another layout, matched by name."""
-    known = dict(zip(old.errors, point.error, strict=True))
-    return replace(point, error=np.array([known.get(name, 0.0) for name in new.errors]))
 
 
 def as_if_stiff(testbed: Testbed) -> Testbed:
@@ -119,7 +113,7 @@ def fitted_in(
     guess = None
     if before is not None:
         layout = trajectory.layout_of(recording, testbed, params)
-        guess = carried(before.fitted.point, before.fitted.problem.layout, layout)
+        guess = with_errors_of(before.fitted.point, before.fitted.problem.layout, layout)
     fitted = trajectory.fit(recording, testbed, params, guess)
     estimate = conclude(fitted, trajectory.METHOD, recording)
     if found and estimate.outcome.usable:
