@@ -9,6 +9,7 @@ One unknown x_j may act on one mass (where it stopped: ``stops``; when it travel
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -32,6 +33,7 @@ from equipoise.actuators.travel_errors import (
     SPREAD,
     open_times,
 )
+from equipoise.maths.straight_lines import bends
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -61,6 +63,14 @@ def is_of_drive(name: str) -> bool:
     return name.startswith(LAG) or name.split("_")[0] in (GAIN, ACROSS, BACKLASH, PLAY)
 
 
+def at_bends(t: Series1, columns: Floats) -> Samples:
+    """Return columns of straight lines at the times at which any bends, and at both ends."""
+    if len(t) < 2:
+        return Samples(t, columns)
+    return Samples(t, columns).where(np.concatenate([[True], bends(t, columns), [True]]))
+
+
+@lru_cache(maxsize=4)  # a search poses a record hundreds of times; by identity
 def mass_errors(
     track: Samples | None, masses: tuple[SlidingMass, ...], least: float = 0.0
 ) -> MassErrors:
@@ -86,7 +96,7 @@ def mass_errors(
     columns: list[Series1] = [column for each in found for _, column in each.response]
     pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.response]
     return MassErrors(
-        Samples(t, np.column_stack(columns)) if columns else None,
+        at_bends(t, np.column_stack(columns)) if columns else None,
         np.array(pairs, dtype=np.int64).reshape(-1, 2),
         np.array([each.sd for each in found]),
         tuple(each.name for each in found),

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.straight_lines import read_at
+from equipoise.maths.straight_lines import bends, read_at
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Samples
@@ -78,11 +78,8 @@ def corners(channel: Samples | None, start: float, end: float) -> Series1:
     """Return the times inside (start, end) at which a known input bends."""
     if channel is None or len(channel) < 2:
         return np.zeros(0)
-    slope = np.diff(channel.values, axis=0) / np.diff(channel.t)[:, None]
-    size = np.abs(slope).max() + 1e-300
-    bend = np.any(np.abs(np.diff(slope, axis=0)) > 1e-9 * size, axis=1)
-    moving = np.any(slope != 0, axis=1)
-    keep = np.concatenate([moving[:1], bend, moving[-1:]])
+    first, last = (np.any(channel.values[k] != channel.values[k + 1], keepdims=True) for k in (0, -2))
+    keep = np.concatenate([first, bends(channel.t, channel.values), last])
     inside = channel.t[keep]
     return inside[(inside > start) & (inside < end)]
 

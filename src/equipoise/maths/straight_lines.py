@@ -2,13 +2,22 @@
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Series, Series1
+from equipoise.model.arrays import Bools, Floats, Series, Series1
+
+STRAIGHT = 1e-9  # of the greatest slope, chosen: by which slopes differ by rounding alone
 
 
 def read_at(at: Series1, t: Series1, values: Series) -> Series:
     """Return the columns of ``values`` (n, k), given at times t, at other times."""
     columns: list[Floats] = [np.interp(at, t, column) for column in values.T]
     return np.column_stack(columns) if columns else np.zeros((len(at), 0))
+
+
+def bends(t: Series1, values: Series) -> Bools:
+    """Return at which rows but the first and last (n - 2,) any column of values (n, k) bends."""
+    slope = np.diff(values, axis=0) / np.diff(t)[:, None]
+    size = np.abs(slope).max(initial=0.0) + 1e-300
+    return np.any(np.abs(np.diff(slope, axis=0)) > STRAIGHT * size, axis=1)
 
 
 def integral_at(at: Series1, t: Series1, values: Series) -> Series:

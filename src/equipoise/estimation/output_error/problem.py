@@ -1,6 +1,7 @@
 """A recording as a least-squares problem: residuals in units of their noise, and priors."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -224,6 +225,7 @@ def reposed(problem: Problem, recording: Recording, testbed: Testbed) -> Problem
                 problem.limit, problem.scale_open, problem.jumps)  # fmt: skip
 
 
+@lru_cache(maxsize=1)  # settled, smoothed and judged in turn; by identity
 def posed(problem: Problem) -> Posed:
     """Return the problem as the kernel sees it."""
     line, prior = problem.line, problem.prior
