@@ -78,8 +78,8 @@ def corners(channel: Samples | None, start: float, end: float) -> Series1:
     """Return the times inside (start, end) at which a known input bends."""
     if channel is None or len(channel) < 2:
         return np.zeros(0)
-    first, last = (np.any(channel.values[k] != channel.values[k + 1], keepdims=True) for k in (0, -2))
-    keep = np.concatenate([first, bends(channel.t, channel.values), last])
+    moves = np.any(channel.values[[1, -1]] != channel.values[[0, -2]], axis=1)
+    keep = np.concatenate([moves[:1], bends(channel.t, channel.values), moves[1:]])
     inside = channel.t[keep]
     return inside[(inside > start) & (inside < end)]
 
