@@ -7,6 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from benchmarks.problem import Array, Point, Problem
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import Fitted, conclude
 from equipoise.estimation.parameters.fit_parameters import Unknowns
@@ -45,7 +46,8 @@ def unknowns_of(problem: Problem, point: Point) -> Unknowns:
     """Return one of the peers' points as the library keeps it."""
     inertia_C = unpack_symmetric(point.inertia) - parallel_axis(problem.mass, point.com)
     six = pseudo_inertia.from_inertia(inertia_C)
-    none = (np.zeros(16), np.zeros(24), np.zeros(0), np.zeros(3))  # torques, sensors, stops, bias
+    still, exact = np.zeros(N_TORQUES), (np.zeros(24), np.zeros(0))  # sensors, stops
+    none = (still, *exact, np.zeros(3))
     return Unknowns(point.q, point.rate, six, point.com, *none)
 
 

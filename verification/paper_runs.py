@@ -9,6 +9,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.parameters.fit_parameters import Unknowns
@@ -62,7 +63,7 @@ def true_point(q0: Floats, inertia: Vector6 = PUBLISHED) -> Unknowns:
     about_C = unpack_symmetric(inertia) - parallel_axis(builders.MASS, builders.COM)
     six = pseudo_inertia.from_inertia(about_C)
     rate, com = builders.RATE, builders.COM
-    return Unknowns(q0, rate, six, com, np.zeros(16), np.zeros(24), np.zeros(0), np.zeros(3))
+    return Unknowns(q0, rate, six, com, np.zeros(N_TORQUES), np.zeros(24), np.zeros(0), np.zeros(3))
 
 
 def information(problem: Problem, q0: Floats, inertia: Vector6 = PUBLISHED) -> Floats:

@@ -8,7 +8,7 @@ import pytest
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
-from equipoise.dynamics.regressor import DRIFT
+from equipoise.dynamics.regressor import DRIFT, N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.sensitivities import ERROR, MOMENT, TORQUE, TURN
 from equipoise.dynamics.sensitivities import INERTIA as INERTIA_KIND
@@ -26,6 +26,7 @@ from tests.support.builders import (
     INERTIA,
     MASS,
     RATE,
+    WARMING,
     body,
     line_of,
     move_at,
@@ -61,12 +62,12 @@ def platform_at(d, speed):
     return J, mu, h
 
 
-def torques(w, g, t, c):
-    """Return all sixteen torques, written out as vectors."""
+def torques(w, g, t, warmth, c):
+    """Return all torques, written out as vectors."""
     n, Q = g / GRAVITY, np.array([[c[8], c[10], c[11]], [c[10], c[9], c[12]], [c[11], c[12], 0]])
     Q[2, 2] = -c[8] - c[9]
     drag = -c[0:3] * w - c[3] * np.linalg.norm(w) * w
-    return drag + c[4:7] - c[7] * n + MASS * np.cross(Q @ n + c[13:16] * t, g)
+    return drag + c[4:7] - c[7] * n + MASS * np.cross(Q @ n + c[13:16] * t + c[16:19] * warmth, g)
 
 
 def derivative(y, t, known, speed, c):
@@ -75,7 +76,7 @@ def derivative(y, t, known, speed, c):
     w = np.linalg.solve(J, H - h - known[:3])
     g = to_matrix(q).T @ [0, 0, -GRAVITY]
     turning = 0.5 * multiply(q, np.array([0.0, *w]))
-    pulled = np.cross(mu, g) + known[3:6] + torques(w, g, t, c)
+    pulled = np.cross(mu, g) + known[3:6] + torques(w, g, t, known[6], c)
     return np.concatenate([turning, pulled - np.cross(w, H)])
 
 
@@ -96,11 +97,11 @@ def twin(line, c, w0):
     return np.array(y)
 
 
-@pytest.mark.parametrize("torque", [np.zeros(16), EVERY_TORQUE], ids=["gravity", "every"])
+@pytest.mark.parametrize("torque", [np.zeros(N_TORQUES), EVERY_TORQUE], ids=["gravity", "every"])
 def test_agrees_with_a_plain_twin(torque):
     """Same steps, other code: masses as points, torques as vectors. Rounding of 200 steps."""
     t = np.linspace(0, 20, 101)
-    line = timeline(t, np.zeros(0), MOVE, 3, 1.0, WHEEL, PUSH)
+    line = timeline(t, np.zeros(0), MOVE, 3, 1.0, WHEEL, PUSH, temperature=WARMING)
     motion, by_hand = travel(line, body(torque), w0=FAST), twin(line, torque, FAST)
     np.testing.assert_allclose(motion.q, by_hand[:, :4], rtol=0, atol=1e-12)
     np.testing.assert_allclose(motion.momentum, by_hand[:, 4:], rtol=0, atol=1e-12)
@@ -127,7 +128,7 @@ def test_integrator_earns_order_four(track):
 
 # --- Sensitivities ----------------------------------------------------------------------------
 
-KINDS = {TURN: 3, RATE_KIND: 3, INERTIA_KIND: 6, MOMENT: 3, TORQUE: 16, ERROR: 5}
+KINDS = {TURN: 3, RATE_KIND: 3, INERTIA_KIND: 6, MOMENT: 3, TORQUE: N_TORQUES, ERROR: 5}
 PAIRS = np.array([(kind, k) for kind, n in KINDS.items() for k in range(n)])
 COLUMNS = Columns(PAIRS[:, 0].copy(), PAIRS[:, 1].copy())
 TIMES = np.linspace(0, 20, 41)
@@ -136,7 +137,8 @@ TIMES = np.linspace(0, 20, 41)
 def response_line():
     """A timeline whose four stops have an unknown error each, the first from the start; a lag."""
     errors = mass_errors(MOVE, SKEWED)
-    return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.response, errors.owner)
+    return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.response, errors.owner,
+                    temperature=WARMING)  # fmt: skip
 
 
 def moved_by(line, torque, kind, k, change):
@@ -153,7 +155,7 @@ def moved_by(line, torque, kind, k, change):
 
 
 @pytest.fixture(
-    scope="module", params=[np.zeros(16), EVERY_TORQUE], ids=["gravity", "every torque"]
+    scope="module", params=[np.zeros(N_TORQUES), EVERY_TORQUE], ids=["gravity", "every torque"]
 )
 def sensed(request):
     line, torque = response_line(), request.param
@@ -181,10 +183,12 @@ def test_sensitivity_is_the_finite_difference(sensed, column):
 def test_drift_sensitivity_is_right_where_nothing_else_changes(axis):
     """The platform is then read once a step, the time is not: central differences as above."""
     line, column = line_of(TIMES), Columns(np.array([TORQUE]), np.array([DRIFT + axis]))
-    motion = travel(line, body(np.zeros(16)), column, w0=RATE + FAST)
+    motion = travel(line, body(np.zeros(N_TORQUES)), column, w0=RATE + FAST)
     found = motion.turn_by[:, :, 0]
     change = 1e-4 / np.abs(found).max()
-    more, less = (moved_by(line, np.zeros(16), TORQUE, DRIFT + axis, s * change) for s in (1, -1))
+    more, less = (
+        moved_by(line, np.zeros(N_TORQUES), TORQUE, DRIFT + axis, s * change) for s in (1, -1)
+    )
     turned = difference(more.q, motion.q) - difference(less.q, motion.q)
     numeric = turned / (2 * change)
     np.testing.assert_allclose(found, numeric, rtol=0, atol=1e-5 * np.abs(numeric).max())

@@ -12,6 +12,7 @@ from scipy.integrate import simpson
 
 from equipoise.actuators.sliding_masses import com_shift, inertia_shift
 from equipoise.dynamics.propagation import body_of
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.timeline import timeline
 from equipoise.maths.attitude import difference, exponential, logarithm, multiply, to_matrix
 from equipoise.maths.linalg import unpack_symmetric
@@ -115,7 +116,7 @@ def test_drag_does_the_work_that_is_missing():
     """E(end) - E(0) = -integral of w.c w, by Simpson at 0.05 s: errors of 1e-9 of it."""
     c = np.array([2e-3, 1e-3, 3e-3])
     line = line_of(np.linspace(0, 120, 2401))
-    motion = travel(line, body(np.concatenate([c, np.zeros(13)])))
+    motion = travel(line, body(np.append(c, np.zeros(N_TORQUES - 3))))
     work = simpson(-np.sum(c * motion.rate**2, axis=1), x=line.t)
     energy = sums(motion).energy
     assert work < -1e-6  # J
@@ -203,7 +204,7 @@ def test_drift_moves_the_centre_of_mass_linearly():
 
     0.1 nm/s tips it by 2e-4 rad in 30 s; the next terms are of order (angle)^2 = 3e-8.
     """
-    c, torque = 1e-10, np.zeros(16)
+    c, torque = 1e-10, np.zeros(N_TORQUES)
     torque[14] = c
     rigid = body_of(MASS, GRAVITY, DIAGONAL, np.zeros(3), torque)
     line = line_of(np.linspace(0, 30, 61))
@@ -215,8 +216,8 @@ def test_drift_moves_the_centre_of_mass_linearly():
 
 def test_time_of_drift_counts_from_the_start_of_the_record():
     """A record that begins at 1e5 s drifts as one that begins at 0."""
-    torque = np.zeros(16)
-    torque[13:] = 1e-8, -2e-8, 3e-8
+    torque = np.zeros(N_TORQUES)
+    torque[13:16] = 1e-8, -2e-8, 3e-8
     t = np.linspace(0, 60, 61)
     early, late = (travel(line_of(t + start), body(torque)) for start in (0.0, 1e5))
     np.testing.assert_allclose(late.q, early.q, rtol=0, atol=1e-9)  # 1e5 s holds 1e-11 s

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from equipoise.dynamics.regressor import DRIFT, MOMENT, SAG, SWIRL, TORQUE, WIDTH
+from equipoise.dynamics.regressor import DRIFT, MOMENT, SAG, SWIRL, THERMAL, TORQUE, WIDTH
 from equipoise.estimation.regression.formulations.columns import regressor_rows
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.maths.linalg import unpack_symmetric
@@ -15,17 +15,19 @@ from tests.support.builders import GRAVITY, MASS
 
 vectors = arrays(np.float64, 3, elements=st.floats(-2.0, 2.0))
 sixes = arrays(np.float64, 6, elements=st.floats(-2.0, 2.0))
-LATER = 7.0  # s after the start of the record
+LATER, WARMER = 7.0, -3.0  # s and K after the start of the record
 TILTED = -GRAVITY * to_matrix(exponential(np.array([0.3, -0.2, 0.5])))[2]
 LEVEL = np.array([0.0, 0.0, -GRAVITY])
 SPIN = np.array([0.3, -0.4, 1.2])  # |w| = 1.3
 
 
 def columns(w, g):
-    """Return the (3, 25) regressor at LATER, the second of two rows."""
+    """Return the (3, 28) regressor at LATER and WARMER, the second of two rows."""
     out = np.zeros((2, 3, WIDTH))
     t = np.array([100.0, 100.0 + LATER])
-    regressor_rows(np.tile(w, (2, 1)), np.tile(g, (2, 1)), t, MASS, GRAVITY, out)
+    regressor_rows(
+        np.tile(w, (2, 1)), np.tile(g, (2, 1)), t, np.array([0.0, WARMER]), MASS, GRAVITY, out
+    )
     return out[1]
 
 
@@ -34,7 +36,7 @@ def test_one_column_for_every_term():
     assert len(TERMS) == WIDTH - TORQUE
     assert TERMS[SWIRL] == "swirl"
     assert TERMS[SAG : SAG + 5] == ("sag_xx", "sag_yy", "sag_xy", "sag_xz", "sag_yz")
-    assert TERMS[DRIFT] == "drift_x"
+    assert (TERMS[DRIFT], TERMS[THERMAL]) == ("drift_x", "thermal_x")
 
 
 @given(vectors, sixes)
@@ -66,6 +68,9 @@ BY_HAND = {
     "drift_x": MASS * LATER * np.cross(AXES[0], TILTED),
     "drift_y": MASS * LATER * np.cross(AXES[1], TILTED),
     "drift_z": MASS * LATER * np.cross(AXES[2], TILTED),
+    "thermal_x": MASS * WARMER * np.cross(AXES[0], TILTED),
+    "thermal_y": MASS * WARMER * np.cross(AXES[1], TILTED),
+    "thermal_z": MASS * WARMER * np.cross(AXES[2], TILTED),
     "viscous_x": np.array([-0.3, 0.0, 0.0]),
     "viscous_z": np.array([0.0, 0.0, -1.2]),
     "constant_x": AXES[0],

@@ -127,15 +127,15 @@ def test_simultaneous_sensor_rows_share_a_node():
 
 
 def test_known_inputs_stand_in_their_columns():
-    """Momentum, torque, masses, errors, in this order, at every node; kinks between rows too."""
+    """Momentum, torque, warmth, masses, errors, in this order, at every node; kinks too."""
     errors = channel([0, 1, 2], [0, 1, 1])
     momentum = channel([0, 1], [1, 1], [2, 2], [3, 3])
     torque = channel([0, 2], [0, 4], [5, 5], [6, 6])
     owner = np.array([[2, 0]])
     line = timeline(
         np.array([0.0, 2.0]), NONE, channel([0, 2], [0, 1], [0, 0], [2, 0]), 3, 10.0,
-        momentum, torque, errors, owner,
+        momentum, torque, errors, owner, temperature=channel([0, 2], [20, 24]),
     )  # fmt: skip
     assert line.t.tolist() == [0, 1, 2]  # 1 s: the corner of the error
     assert line.owners.tolist() == [[2, 0]]
-    assert line.known[1].tolist() == [1, 2, 3, 2, 5, 6, 0.5, 0, 1, 1]
+    assert line.known[1].tolist() == [1, 2, 3, 2, 5, 6, 2, 0.5, 0, 1, 1]

@@ -60,7 +60,7 @@ def motion():
     body = body_of(14.0, 0.0, pack_symmetric(INERTIA), np.zeros(3))
     maps = MassMaps(*map(np.vstack, zip(mass_maps(MASSES), gimbal_maps(GYROS), strict=True)))
     h = WHEEL_INERTIA * SPEEDS @ WHEEL_AXES + 0.05 * spins(ANGLES).sum(axis=1)
-    known = np.hstack([h, np.zeros_like(h), PLACES, gimbal_coordinates(GYROS, ANGLES)])
+    known = np.hstack([h, np.zeros((len(h), 4)), PLACES, gimbal_coordinates(GYROS, ANGLES)])
     start = np.array([1.0, 0, 0, 0, 0.03, -0.02, 0.05])
     return run(body, stacked(maps), start, T, known)
 

@@ -23,7 +23,9 @@ CAMERA_SD, GYRO_SD = np.radians(0.2), 1e-4
 EVERY_TORQUE = np.array(
     [2e-4, 3e-4, 1e-4, 2e-3, 1e-5, -2e-5, 3e-6, 2e-5]  # drags, constant, swirl
     + [3e-7, -2e-7, 4e-7, 1e-7, -5e-7, 1e-8, -2e-8, 5e-9]  # sag (m), drift (m/s)
+    + [6e-8, -3e-8, 4e-8]  # warmth (m/K)
 )
+WARMING = Samples(np.array([0.0, 7.0, 20.0]), np.array([[21.0], [23.5], [22.0]]))  # degC
 
 
 def sliding_masses(accuracy: float = 0.0, resolution: float = 1e-3) -> tuple[SlidingMass, ...]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.dynamics.propagation import body_of
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.parameters.fit_parameters import RATE, R, Unknowns
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
@@ -34,7 +35,9 @@ KINDS = {
     "com_step": (COM_NAMES, R, np.array([5e-8, -4e-8, 6e-8])),  # m
 }
 SIX = from_inertia(unpack_symmetric(INERTIA) - parallel_axis(MASS, COM))
-TRUTH = Unknowns(ATTITUDE, START, SIX, COM, np.zeros(16), np.zeros(24), np.zeros(0), np.zeros(3))
+TRUTH = Unknowns(
+    ATTITUDE, START, SIX, COM, np.zeros(N_TORQUES), np.zeros(24), np.zeros(0), np.zeros(3)
+)
 
 
 def reported(rng=None):

@@ -141,7 +141,7 @@ def onward(now, bench, goal, torque, duration):
     share = np.minimum(t[:, None] / np.maximum(ends, 1e-12), 1.0)
     way = d + share * (goal - d)
     h = now.h - t[:, None] * torque
-    known = np.hstack([h, np.zeros((len(t), 3)), way])
+    known = np.hstack([h, np.zeros((len(t), 4)), way])
     path = run(bench.body, stacked(bench.maps), now.y, t, known)
     # The rate at the end, from the momentum: masses that arrive there no longer count.
     return Now(now.t + duration, path.y[-1], path.rate[-1], way[-1], h[-1], torque)

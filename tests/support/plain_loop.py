@@ -12,6 +12,7 @@ import numpy as np
 from equipoise.actuators.sliding_masses import MassMaps, com_shift, mass_maps
 from equipoise.control.law import Sample
 from equipoise.dynamics.propagation import body_of, stacked
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import cross, pack_symmetric
 from equipoise.model.command import Command
@@ -177,14 +178,16 @@ def go(course: Course, command: Command, dt: float, rng: np.random.Generator) ->
     share = np.linspace(0, 1, n + 1)[:, None]
     d = np.array([moved(now.d, now.goal, bed, s * dt) for s in share[:, 0]])
     h, torque = now.h - share * u * dt, coil + now.play + share * (play - now.play)
-    terms = np.zeros(16)
+    terms = np.zeros(N_TORQUES)
     for index, value in truth.torque.items():
         terms[index] = value
     # A mass that stops within a step makes a corner there; its momentum is small.
     moment = MASS * (truth.com + truth.drift * (now.t + 0.5 * dt))
     body = body_of(MASS, GRAVITY, pack_symmetric(truth.inertia), moment, terms)
     t = share[:, 0] * dt
-    path = run(body, stacked(course.maps), now.y, t, np.hstack([h, torque, d]))
+    path = run(
+        body, stacked(course.maps), now.y, t, np.hstack([h, torque, np.zeros((len(d), 1)), d])
+    )
     for j in range(1 if course.t else 0, n + 1):
         course.t.append(now.t + t[j])
         course.q.append(path.y[j, :4])

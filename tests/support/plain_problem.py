@@ -20,6 +20,7 @@ def noded(problem: Problem, record: Recording) -> Problem:
     line = timeline(
         record.attitude.t, record.rate.t, record.masses, len(problem.maps.momentum), 1.0,
         record.momentum, record.torque, problem.errors.response, problem.errors.owner, cut=cut,
+        temperature=record.temperature,
     )  # fmt: skip
     observed = problem.observed._replace(
         attitude_node=line.attitude_node,

@@ -12,6 +12,7 @@ from equipoise.actuators.mass_allocation import rails_of, without_delay
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.control.law import Law, Sample
 from equipoise.dynamics.propagation import body_of
+from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.maths.attitude import exponential, level, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.command import Command
@@ -117,13 +118,13 @@ class Plant:
         speed = np.array([mass.speed for mass in self.testbed.masses])
         way = self.goal - self.d
         share = np.minimum(t[:, None] * speed, np.abs(way))
-        known = np.zeros((n, 6 + len(way)))
+        known = np.zeros((n, KNOWN_D + len(way)))
         known[:, 3:6] = 0.0 if torque is None else torque
-        known[:, 6:] = self.d + np.sign(way) * share
+        known[:, KNOWN_D:] = self.d + np.sign(way) * share
         if impulse is not None:
             self.y[4:] += impulse
         path = run(self.body, np.hstack(self.maps), self.y, t, known)
-        self.y, self.rate, self.d = path.y[-1].copy(), path.rate[-1], known[-1, 6:]
+        self.y, self.rate, self.d = path.y[-1].copy(), path.rate[-1], known[-1, KNOWN_D:]
         self.time += period
 
 

@@ -10,6 +10,7 @@ T_k are the torques named in ``model.torque_terms``:
     constant_i    e_i                           swirl        u,  u = -g_B/g, the vertical
     sag_ij        m g (C_ij n) x n,  n = g_B/g; C symmetric, and traceless as C + c E gives none
     drift_i       m (t - t0) e_i x g_B          centre of mass moving at a constant rate
+    thermal_i     m (T - T0) e_i x g_B          centre of mass moving with a recorded temperature
 
 The batch methods integrate these columns; the propagator's sensitivities are forced by the same.
 (da Silva 2021 Eqs. 13-15 with the signs of a laboratory whose Z points up; Lee Eq. 3.)
@@ -19,8 +20,9 @@ from equipoise.maths.compiled import part
 from equipoise.model.arrays import Floats, Triple
 
 INERTIA, MOMENT, TORQUE = 0, 6, 9  # first column of each block
-VISCOUS, QUADRATIC, CONSTANT, SWIRL, SAG, DRIFT = 0, 3, 4, 7, 8, 13  # within the torques
-N_TORQUES = 16
+VISCOUS, QUADRATIC, CONSTANT, SWIRL, SAG = 0, 3, 4, 7, 8  # within the torques
+DRIFT, THERMAL = 13, 16  # by which the centre of mass moves
+N_TORQUES = 19
 WIDTH = TORQUE + N_TORQUES
 
 
@@ -50,9 +52,9 @@ def cross_into(s: Triple, n: Triple, weight: float, column: int, out: Floats) ->
 
 @part
 def torque_columns(
-    w: Triple, g: Triple, t: float, mass: float, gravity: float, out: Floats
+    w: Triple, g: Triple, t: float, warmth: float, mass: float, gravity: float, out: Floats
 ) -> None:
-    """Write the columns T_k behind those of J and mu."""
+    """Write the columns T_k behind those of J and mu; ``warmth`` is T - T0, K."""
     speed = (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) ** 0.5
     for i in range(3):
         for j in range(3):
@@ -67,14 +69,16 @@ def torque_columns(
     cross_into((g[2], 0.0, g[0]), g, weight, sag + 3, out)
     cross_into((0.0, g[2], g[1]), g, weight, sag + 4, out)
     cross_columns(g, mass * t, TORQUE + DRIFT, out)
+    cross_columns(g, mass * warmth, TORQUE + THERMAL, out)
 
 
 @part
 def regressor(
-    w: Triple, g: Triple, t: float, mass: float, gravity: float, torques: bool, out: Floats
-) -> None:
-    """Write [W(w) | -[g_B x] | T], shape (3, 25); ``t`` counts from the start of the record."""
+    w: Triple, g: Triple, t: float, warmth: float, mass: float, gravity: float, torques: bool,
+    out: Floats,
+) -> None:  # fmt: skip
+    """Write [W(w) | -[g_B x] | T], shape (3, 28); t and warmth count from the record's start."""
     momentum_columns(w, out)
     cross_columns(g, 1.0, MOMENT, out)
     if torques:
-        torque_columns(w, g, t, mass, gravity, out)
+        torque_columns(w, g, t, warmth, mass, gravity, out)

@@ -7,13 +7,13 @@ Small vectors and matrices are tuples here: the compiler keeps them in registers
 
 from typing import NamedTuple
 
-from equipoise.dynamics.regressor import DRIFT, N_TORQUES, torque_columns
+from equipoise.dynamics.regressor import DRIFT, N_TORQUES, THERMAL, torque_columns
 from equipoise.dynamics.regressor import TORQUE as TORQUE_COLUMN
 from equipoise.maths.compiled import part
 from equipoise.model.arrays import Floats, Six, Triple
 
 ROWS = 7  # of the state before the sensitivities: q, H
-KNOWN_D = 6  # first mass displacement among the known inputs: wheel momentum, torque, masses
+KNOWN_WARMTH, KNOWN_D = 6, 7  # among the known inputs: momentum, torque, warmth, masses
 A, B, HM = 3, 9, 15  # where the mass maps keep A_i, B_i and the momentum of travel
 
 
@@ -25,13 +25,14 @@ class Body(NamedTuple):
     inertia: Six  # kg m^2, about P, masses at home, xx yy zz xy xz yz
     moment: Triple  # kg m, masses at home
     torqued: bool  # any coefficient below is not zero
-    torque: tuple[float, ...]  # (16,) coefficients
+    torque: tuple[float, ...]  # (19,) coefficients
 
 
 class Now(NamedTuple):
     """The platform at one moment."""
 
     t: float  # s since the start of the record
+    warmth: float  # K, of the temperature above that at the start
     inertia: Six
     inverse: Six
     moment: Triple
@@ -72,16 +73,25 @@ def between(first: float, last: float, share: float) -> float:
 
 
 @part
+def moved_moment(body: Body, since: float, warmth: float) -> Triple:
+    """Return the first moment, masses at home, after ``since`` seconds and as much warmer."""
+    a, b, c = body.mass * since, body.mass * warmth, body.torque
+    return (
+        body.moment[0] + a * c[DRIFT] + b * c[THERMAL],
+        body.moment[1] + a * c[DRIFT + 1] + b * c[THERMAL + 1],
+        body.moment[2] + a * c[DRIFT + 2] + b * c[THERMAL + 2],
+    )
+
+
+@part
 def body_at(body: Body, maps: Floats, t: Floats, known: Floats, i: int, share: float) -> Now:
     """Return the platform at ``share`` of step i: J(d), mu(d, t), h(d')."""
     step = t[i + 1] - t[i]
     since = t[i] - t[0] + share * step
     xx, yy, zz, xy, xz, yz = body.inertia
-    ramp = body.mass * since
-    m0 = body.moment[0] + ramp * body.torque[DRIFT]
-    m1 = body.moment[1] + ramp * body.torque[DRIFT + 1]
-    m2 = body.moment[2] + ramp * body.torque[DRIFT + 2]
     a, b = known[i], known[i + 1]
+    warmth = between(a[KNOWN_WARMTH], b[KNOWN_WARMTH], share)
+    m0, m1, m2 = moved_moment(body, since, warmth)
     h0, h1, h2 = (between(a[0], b[0], share), between(a[1], b[1], share),
                   between(a[2], b[2], share))  # fmt: skip
     for k in range(maps.shape[0]):
@@ -99,12 +109,12 @@ def body_at(body: Body, maps: Floats, t: Floats, known: Floats, i: int, share: f
         yz += d * (maps[k, A + 5] + d * maps[k, B + 5])
     inertia = (xx, yy, zz, xy, xz, yz)
     torque = (between(a[3], b[3], share), between(a[4], b[4], share), between(a[5], b[5], share))
-    return Now(since, inertia, invert(inertia), (m0, m1, m2), (h0, h1, h2), torque)
+    return Now(since, warmth, inertia, invert(inertia), (m0, m1, m2), (h0, h1, h2), torque)
 
 
 @part
 def drifts(body: Body) -> bool:
-    """Say whether the centre of mass moves by itself."""
+    """Say whether the centre of mass moves with time."""
     c = body.torque
     return c[DRIFT] != 0.0 or c[DRIFT + 1] != 0.0 or c[DRIFT + 2] != 0.0
 
@@ -124,7 +134,8 @@ def body_within(
     if not fixed:
         return body_at(body, maps, t, known, i, share)
     since = t[i] - t[0] + share * (t[i + 1] - t[i])
-    return Now(since, first.inertia, first.inverse, first.moment, first.momentum, first.torque)
+    return Now(since, first.warmth, first.inertia, first.inverse, first.moment, first.momentum,
+               first.torque)  # fmt: skip
 
 
 @part
@@ -157,7 +168,7 @@ def motion(
     for j in range(3):
         dy[4 + j] = now.torque[j] + weight[j] - gyroscopic[j]
     if body.torqued:
-        torque_columns(w, g, now.t, body.mass, body.gravity, columns)
+        torque_columns(w, g, now.t, now.warmth, body.mass, body.gravity, columns)
         for j in range(3):
             for k in range(DRIFT):
                 dy[4 + j] += body.torque[k] * columns[j, TORQUE_COLUMN + k]

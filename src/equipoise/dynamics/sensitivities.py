@@ -201,7 +201,7 @@ def forcing(
     n = kinds.shape[0]
     for c in range(n):
         torques |= kinds[c] == TORQUE
-    regressor(w, g, now.t, body.mass, body.gravity, torques, work.regress)
+    regressor(w, g, now.t, now.warmth, body.mass, body.gravity, torques, work.regress)
     for c in range(n):
         kind, k, at = kinds[c], inputs.columns.indices[c], place(c)
         if kind == ERROR:

@@ -24,8 +24,8 @@ class Timeline(NamedTuple):
     """Grid of n + 1 nodes; a step leads from each node to the next."""
 
     t: Floats  # (n+1,) s
-    known: Floats  # (n+1, 6 + k + f): wheel momentum N m s, torque N m, displacements m, and the
-    # masses' shares of the unknown errors
+    known: Floats  # (n+1, 7 + k + f): wheel momentum N m s, torque N m, temperature above that at
+    # the start K, displacements m, and the masses' shares of the unknown errors
     owners: Ints  # (f, 2) the mass that each of these columns is of, and the unknown
     attitude_node: Ints  # (n_q,) where the attitude was measured: this node
     attitude_share: Floats  # (n_q,) and this share of the step that leaves it
@@ -74,6 +74,12 @@ def straight_lines(channel: Samples | None, t: Series1, width: int) -> Floats:
     return read_at(t, channel.t, channel.values) if width else np.zeros((len(t), 0))
 
 
+def warmth(temperature: Samples | None, t: Series1) -> Floats:
+    """Return by how much (K) it is warmer at times ``t`` (s) than at the first, (n, 1)."""
+    found = straight_lines(temperature, t, 1)
+    return found - found[0]
+
+
 def corners(channel: Samples | None, start: float, end: float) -> Series1:
     """Return the times inside (start, end) at which a known input bends."""
     if channel is None or len(channel) < 2:
@@ -96,8 +102,12 @@ def timeline(
     owners: Ints | None = None,
     at_nodes: bool = True,
     cut: Series1 | None = None,
+    temperature: Samples | None = None,
 ) -> Timeline:
-    """Return the grid for sensors that measured at these times (s), with nodes at every ``cut``."""
+    """Return the grid for sensors that measured at these times (s), with nodes at every ``cut``.
+
+    A temperature is so slow that it needs no nodes.
+    """
     observed = np.concatenate([attitude_t, rate_t])
     start, end = float(observed.min()), float(observed.max())
     knots = [corners(c, start, end) for c in (masses, momentum, torque, errors)]
@@ -105,10 +115,12 @@ def timeline(
     inner = np.zeros(0) if cut is None else cut
     t = fill(distinct(np.concatenate([firm, inner, *knots])), longest)
     owners = np.zeros((0, 2), dtype=np.int64) if owners is None else owners
-    inputs = ((momentum, 3), (torque, 3), (masses, n_masses), (errors, len(owners)))
+    outside = (straight_lines(channel, t, 3) for channel in (momentum, torque))
+    inside = ((masses, n_masses), (errors, len(owners)))
+    own = (straight_lines(channel, t, width) for channel, width in inside)
     return Timeline(
         t,
-        np.hstack([straight_lines(channel, t, width) for channel, width in inputs]),
+        np.hstack([*outside, warmth(temperature, t), *own]),
         owners,
         *place(t, attitude_t),
         *place(t, rate_t),

@@ -84,6 +84,12 @@ class Recording(Plotted):
         return float(min(e[0] for e in edges)), float(max(e[1] for e in edges))
 
 
+def warms(recording: Recording) -> bool:
+    """Say whether a temperature was recorded that changes."""
+    rows = recording.temperature
+    return rows is not None and bool(np.any(rows.values != rows.values[:1]))
+
+
 CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field", "temperature")
 INPUTS = ("masses", "momentum", "torque", "devices")  # straight lines between their rows
 

@@ -1,6 +1,6 @@
 """Names and units of the torques other than gravity on the rigid centre of mass.
 
-Each is one coefficient times one column of the regressor (``dynamics.torques`` has the columns).
+Each is one coefficient times one column of the regressor (``dynamics.regressor`` has the columns).
 Groups are what a testbed file asks for under ``[disturbance]``.
 """
 
@@ -15,6 +15,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "swirl": ("swirl",),
     "sag": ("sag_xx", "sag_yy", "sag_xy", "sag_xz", "sag_yz"),
     "drift": ("drift_x", "drift_y", "drift_z"),
+    "thermal": ("thermal_x", "thermal_y", "thermal_z"),
 }
 TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in group)
 # Of each group the unit, and how large its terms are, SI, one sd, chosen: a few times what benches
@@ -27,6 +28,7 @@ SIZES: dict[str, tuple[str, float]] = {
     "swirl": ("N m", 1e-5),
     "sag": ("m", 3e-5),
     "drift": ("m/s", 5e-9),
+    "thermal": ("m/K", 5e-7),
 }
 
 

@@ -234,7 +234,8 @@ class SimulatedBench:
         truth = self.platform.truth
         h, gimbals = stored(self.testbed, self._devices, t)
         dipole, jets = effects(self.testbed, self._devices, t)
-        known = np.hstack([h, torque_at(self._noise, t) + jets, self._real(t), gimbals])
+        torque, warmth = torque_at(self._noise, t) + jets, np.zeros((len(t), 1))
+        known = np.hstack([h, torque, warmth, self._real(t), gimbals])
         platform = (self._body, self._maps, self._state, t, known)
         stop = self._stop if t[-1] > t[0] else NO_STOP
         events = (stop, truth.contacts, truth.com_steps)

@@ -115,8 +115,8 @@ def run(
 ) -> Path:
     """Return the motion from state ``y`` at the first of at least two nodes ``t`` (s).
 
-    ``known`` holds, at each node, stored momentum, torque and displacements, as in ``timeline``;
-    nodes may also run backward, where there is no stop.
+    ``known`` holds, at each node, stored momentum, torque, warmth and displacements, as in
+    ``timeline``; nodes may also run backward, where there is no stop.
     """
     path = path_of(len(t))
     _run(body, maps, stop, t, known, NO_OWNERS, NO_COLUMNS, y.copy(), *path)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.timeline import timeline
 from equipoise.estimation.information import fisher_information, information_matrix
 from equipoise.estimation.information.fisher_information import gravity_sweep, information_by
@@ -294,7 +295,7 @@ def test_a_sound_record_needs_no_caution():
 
 def test_a_model_that_does_not_explain_the_record_is_reported():
     """A constant torque of 0.2 mN m that nobody asked for; sought, it explains all."""
-    torque = np.zeros(16)
+    torque = np.zeros(N_TORQUES)
     torque[4] = 2e-4
     record = noisy(recording(120.0, move_at(60.0, 120.0), torque=torque), 1)
     plain = information_by(record, platform(), Params())

@@ -7,6 +7,7 @@ import pytest
 
 from equipoise.actuators.sliding_masses import inertia_shift
 from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.output_error.kernels.gauss_newton import local_for
 from equipoise.estimation.output_error.kernels.interval_smoother import pieces_at
@@ -66,7 +67,7 @@ def somewhere(errors):
         unpack_symmetric(INERTIA * [1.02, 1.01, 0.98, 1.1, 0.9, 1.2]) - parallel_axis(MASS, com)
     )
     q0 = multiply(ATTITUDE, exponential(np.array([3e-3, -2e-3, 1e-3])))
-    torque = 2e-5 * (np.arange(16) == 7)
+    torque = 2e-5 * (np.arange(N_TORQUES) == 7)
     error = np.array([2e-4, -3e-4, 1e-4])[:errors]
     return Unknowns(q0, RATE * 1.01, six, com, torque, np.zeros(24), error, np.full(3, 1e-3))
 

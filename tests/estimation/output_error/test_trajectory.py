@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.model_selection.reference_fit import estimate
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.output_error.trajectory import (
@@ -82,7 +83,7 @@ def test_without_noise_the_truth_comes_back(gyro):
 
 def test_torque_comes_back_too():
     """Viscous drag and a constant torque, made and found (2 and 0.01 mN m: 1e-3 of each)."""
-    torque = np.zeros(16)
+    torque = np.zeros(N_TORQUES)
     torque[[0, 1, 2, 4, 5, 6]] = 2e-3, 1e-3, 3e-3, 1e-5, -2e-5, 5e-6
     record = recording(120.0, move_at(60.0, 120.0), torque=torque)
     terms = ("viscous_x", "viscous_y", "viscous_z", "constant_x", "constant_y", "constant_z")
@@ -277,7 +278,7 @@ def test_an_undeclared_torque_is_found(seed):
 
     It is added by itself, reported, and what is said of com is right with it.
     """
-    torque = np.zeros(16)
+    torque = np.zeros(N_TORQUES)
     torque[4] = 2e-4
     record = noisy(recording(120.0, move_at(60.0, 120.0), torque=torque), seed)
     found = estimate(record, platform(), Params())

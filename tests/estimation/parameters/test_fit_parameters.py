@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.parameters import retraction
 from equipoise.estimation.parameters.fit_parameters import (
     JP,
@@ -32,7 +33,9 @@ steps = arrays(np.float64, LAYOUT.size, elements=st.floats(-1.0, 1.0)).map(lambd
 
 def point(inertia=INERTIA, com=COM) -> Unknowns:
     six = from_inertia(unpack_symmetric(inertia) - parallel_axis(MASS, com))
-    return Unknowns(ATTITUDE, RATE, six, com, np.zeros(16), np.zeros(24), np.zeros(1), np.zeros(3))
+    return Unknowns(
+        ATTITUDE, RATE, six, com, np.zeros(N_TORQUES), np.zeros(24), np.zeros(1), np.zeros(3)
+    )
 
 
 def local(seed: int, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -154,11 +157,11 @@ def test_two_boundaries_at_once():
 
 def test_a_point_is_kept_flat_and_found_again():
     """The order is that of the record's fields."""
-    numbers = np.arange(60.0)
+    numbers = np.arange(63.0)
     parts = unknowns_of(numbers)
     assert parts.flat.tolist() == numbers.tolist()
     assert (parts.q0[0], parts.w0[0], parts.six[0], parts.com[0]) == (0.0, 4.0, 7.0, 13.0)
-    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [56.0], 57.0)
+    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [59.0], 60.0)
 
 
 def test_names_units_and_coordinates_have_one_length():

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.parameters import observability
 from equipoise.estimation.parameters.fit_parameters import JP, Layout, R, Unknowns, physical
 from equipoise.estimation.parameters.observability import Visibility, natural_sizes, scale_of
@@ -15,7 +16,14 @@ LAYOUT = Layout(("swirl",), ("error_x_1",), bias=True)
 N = LAYOUT.size
 J_C = unpack_symmetric(INERTIA) - parallel_axis(MASS, COM)
 POINT = Unknowns(
-    ATTITUDE, RATE, from_inertia(J_C), COM, np.zeros(16), np.zeros(24), np.zeros(1), np.zeros(3)
+    ATTITUDE,
+    RATE,
+    from_inertia(J_C),
+    COM,
+    np.zeros(N_TORQUES),
+    np.zeros(24),
+    np.zeros(1),
+    np.zeros(3),
 )
 SIZE = natural_sizes(POINT, MASS, LAYOUT)
 VALUES = physical(POINT, MASS, LAYOUT)
@@ -131,7 +139,7 @@ def test_natural_sizes_by_hand():
     assert by_name["com_x"] == pytest.approx(np.linalg.norm(COM))
     assert by_name["error_x_1"] == 1e-3
     centred = Unknowns(
-        ATTITUDE, RATE, POINT.six, np.zeros(3), np.zeros(16), np.zeros(24), np.zeros(1), RATE
+        ATTITUDE, RATE, POINT.six, np.zeros(3), np.zeros(N_TORQUES), np.zeros(24), np.zeros(1), RATE
     )
     assert natural_sizes(centred, MASS, LAYOUT)[R].tolist() == [1e-5] * 3
 

@@ -108,7 +108,7 @@ def test_the_reference_table_sinks_by_25_um_upright_and_not_sideways(u, angle) -
     sin, cos = math.sin(math.radians(angle)), math.cos(math.radians(angle))
     g = (9.81 * u[1] * sin, -9.81 * u[0] * sin, -9.81 * cos)
     out = np.zeros((3, WIDTH))
-    regressor((0.0, 0.0, 0.0), g, 0.0, 14.0, 9.81, True, out)
+    regressor((0.0, 0.0, 0.0), g, 0.0, 0.0, 14.0, 9.81, True, out)
     back = 14.0 * 9.81 * 25e-6 * cos * sin
     np.testing.assert_allclose(out[:, TORQUE:] @ sag, -back * np.array(u), atol=1e-15)
 

@@ -10,6 +10,8 @@ from equipoise.model.estimate import Parameter
 from equipoise.model.move import Move
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
+from equipoise.model.recording import Samples
+from equipoise.model.torque_terms import GROUPS
 from equipoise.model.units import UM
 from equipoise.procedure.steps.joint_fit import learn
 from equipoise.procedure.steps.verify import (
@@ -101,11 +103,10 @@ def test_a_verdict_needs_fresh_data(known):
     assert not fresh_enough(known, 60.0 - FRESH + 0.1)
 
 
-def with_drift(known, drift, sd):
-    """The same knowledge with an independent drift (m/s) in its estimate."""
+def with_drift(known, drift, sd, names=GROUPS["drift"]):
+    """The same knowledge with an independent drift (m/s), or warmth (m/K), in its estimate."""
     extra = tuple(
-        Parameter(f"drift_{axis}", "m/s", float(rate), sd)
-        for axis, rate in zip("xyz", drift, strict=True)
+        Parameter(name, "m/s", float(rate), sd) for name, rate in zip(names, drift, strict=True)
     )
     covariance = block_diag(known.estimate.covariance, sd**2 * np.eye(3))
     parameters = (*known.estimate.parameters, *extra)
@@ -130,3 +131,13 @@ def test_drift_since_the_move_is_no_contradiction(known):
     np.testing.assert_array_equal(com_then(known, 30.0)[0], known.com)
     move = Move({}, 0.0, 1.0, before, 1e-18 * np.eye(3), MoveReason.TO_TARGET)
     assert verdict(drifting, move, 30.0, Aim(known.com, wide(known))).passed
+
+
+def test_warmth_since_the_move_is_no_contradiction(known):
+    """Warmer by 1 K before the move and by 2 K behind it: only the latter moved it since."""
+    rows = Samples(np.array([0.0, 30.0, 60.0]), np.array([[20.0], [21.0], [23.0]]))
+    warm = with_drift(known, UM * np.array([1.0, 0.0, -0.5]), 1e-9, GROUPS["thermal"])
+    warm = replace(warm, recording=replace(warm.recording, temperature=rows))
+    before, sd = com_then(warm, 30.0)
+    np.testing.assert_allclose(known.com - before, [2.0 * UM, 0.0, -1.0 * UM], rtol=1e-9)
+    np.testing.assert_allclose(sd, np.hypot(known.sd, 2e-9), rtol=1e-12)

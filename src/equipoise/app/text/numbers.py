@@ -72,6 +72,7 @@ SHOWN = {
     "N m s": Unit("uN m s", UN_M),
     "N m s2": Unit("uN m s2", UN_M),
     "m/s": Unit("um/min", UM / MINUTE),
+    "m/K": Unit("um/K", UM),
     "1/(kg m)": Unit("um/(kg m2)", UM),
 }
 TRAVEL = Unit("mm", MM)
@@ -82,6 +83,7 @@ TYPESET = {
     "uN m s": "µN m s",
     "uN m s2": "µN m s²",
     "um/min": "µm/min",
+    "um/K": "µm/K",
     "um/sqrt(min)": "µm/√min",
     "uJ": "µJ",
     "kg m2": "kg m²",

@@ -59,7 +59,7 @@ def whole(model: Model, now: Now) -> Now:
         return now
     a, b = now.inertia, model.left_out
     full = (a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5])
-    return Now(now.t, full, invert(full), now.moment, now.momentum, now.torque)
+    return Now(now.t, now.warmth, full, invert(full), now.moment, now.momentum, now.torque)
 
 
 @part

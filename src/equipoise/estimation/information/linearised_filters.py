@@ -28,7 +28,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import MassMaps, inertia_shift
 from equipoise.dynamics.propagation import Motion
-from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.dynamics.rigid_body import KNOWN_D, KNOWN_WARMTH
 from equipoise.dynamics.timeline import Timeline
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
@@ -73,7 +73,7 @@ def course_of(
         in_thirds(body.first_moment + d @ maps.first_moment),
         in_thirds(stored),
         ((stored[2::2] - stored[:-2:2]) / step[:, None])[:, None],
-        in_thirds(known[:, 3:KNOWN_D]),
+        in_thirds(known[:, 3:KNOWN_WARMTH]),
     )
 
 

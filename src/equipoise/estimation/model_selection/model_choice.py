@@ -44,10 +44,12 @@ from equipoise.estimation.parameters.fit_parameters import sensor_sizes, term_si
 from equipoise.estimation.search_budget import Stage
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats
+from equipoise.model.recording import warms
 
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
 DELAY = sensor_terms.GROUPS["camera_delay"]
+THERMAL = torque_terms.GROUPS["thermal"]
 LATE_LOG = (LAG,)  # of the masses: an error of theirs, not a term
 SURE = 6.0  # 2 ln ratio
 GROUPS = (PLUMB, HEADING, DELAY, *GYRO, *torque_terms.GROUPS.values())
@@ -70,7 +72,9 @@ def candidates(model: RecordModel) -> list[tuple[str, ...]]:
         found += GYRO
     if spans_of_travels(model) and not all(mass.logged_late for mass in model.testbed.masses):
         found.append(LATE_LOG)
-    found += list(torque_terms.GROUPS.values())
+    found += [group for group in torque_terms.GROUPS.values() if group != THERMAL]
+    if warms(recording):
+        found.append(THERMAL)
     sought = {*params.sensor, *params.terms}
     return [group for group in found if not sought.issuperset(group)]
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift
-from equipoise.dynamics.regressor import DRIFT
-from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.dynamics.regressor import DRIFT, THERMAL
+from equipoise.dynamics.rigid_body import KNOWN_D, KNOWN_WARMTH
 from equipoise.estimation.method_contract import origin_of
 from equipoise.estimation.output_error.fit_visibility import visibility_of
 from equipoise.estimation.output_error.input_errors import (
@@ -42,7 +42,9 @@ from equipoise.model.outcome import Outcome, OutcomeCode, outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
+from equipoise.model.torque_terms import GROUPS
 
+DRIFTS, THERMALS = GROUPS["drift"], GROUPS["thermal"]
 SURE = 4.0  # sd of a statistic before it counts as more than chance
 MOSTLY = 0.5  # of a variance, chosen: an input that gives more limits it
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
@@ -88,16 +90,18 @@ def selection(layout: Layout) -> list[int]:
 def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | None:
     """Return com at the end, and its derivative by the unknowns of the last stretch.
 
-    Masses as they stand, drift and steps included. None where that is the com with masses at home.
+    Masses as they stand; drift, warmth and steps included. None where that is the com of the
+    start with masses at home.
     """
     problem, layout = fitted.problem, fitted.problem.layout
     k, line = len(problem.maps.momentum), problem.line
     last, seconds = line.known[-1], float(line.t[-1] - line.t[0])
     d, response = last[KNOWN_D : KNOWN_D + k], last[KNOWN_D + k :]
-    drifts = [(j, layout.names.index(f"drift_{axis}")) for j, axis in enumerate("xyz")
-              if f"drift_{axis}" in layout.terms]  # fmt: skip
+    moving = [(j, layout.names.index(name), amount)
+              for names, amount in ((DRIFTS, seconds), (THERMALS, float(last[KNOWN_WARMTH])))
+              for j, name in enumerate(names) if name in layout.terms]  # fmt: skip
     stepped = any(set(COM) & set(jump.names) for jump in problem.jumps)
-    if not (np.any(d) or drifts or stepped):
+    if not (np.any(d) or moving or stepped):
         return None
     com = fitted.point.com if after is None else unknowns_of(after.points[-1]).com
     rows, actual = np.zeros((3, layout.size)), d.copy()
@@ -106,9 +110,11 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
         actual[owner] += response[j] * fitted.point.error[error]
         column = layout.mass_errors.start + error
         rows[:, column] += response[j] * problem.maps.first_moment[owner] / problem.mass
-    for j, column in drifts:
-        rows[j, column] = seconds
-    moved = seconds * fitted.point.torque[DRIFT : DRIFT + 3]
+    for j, column, amount in moving:
+        rows[j, column] = amount
+    coefficients = fitted.point.torque
+    moved = seconds * coefficients[DRIFT : DRIFT + 3]
+    moved = moved + last[KNOWN_WARMTH] * coefficients[THERMAL : THERMAL + 3]
     return com + moved + com_shift(problem.maps, problem.mass, actual), rows
 
 

@@ -49,6 +49,7 @@ def run(
         t, np.zeros(0), on_rails(recording.masses, len(rails)), len(rails),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
         recording.momentum, recording.torque, errors.response, errors.owner,
+        temperature=recording.temperature,
     )  # fmt: skip
     first = KNOWN_D + len(rails)
     off = [found.get(name, 0.0) for name in errors.names]

@@ -32,7 +32,7 @@ from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import typical
+from equipoise.model.torque_terms import GROUPS, typical
 from equipoise.sensors.timing import measured_at, spread_of
 
 COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
@@ -41,6 +41,7 @@ LONGEST_STEP = 1.0  # s, chosen: a thirtieth of the shortest swing worth fitting
 KNOWN, KNOWN_COM = 1e-6, 1e-9  # of J, and m, chosen: what a stated sd of 0 is taken for
 ANCHOR = 10.0  # chosen: natural sizes by which what the data leave open may stray from the guess
 SHOWN = 1e-9  # m s, chosen: com off by so much for so long turns a cubesat's rate by 4e-6 rad/s
+THERMAL = GROUPS["thermal"]
 NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
 
 
@@ -197,6 +198,7 @@ def pose(
         errors.owner,
         at_nodes=False,
         cut=np.array([jump.t for jump in jumps]),
+        temperature=recording.temperature if set(THERMAL) & set(layout.terms) else None,
     )
     measurements = Measurements(
         np.ascontiguousarray(attitude.values if len(attitude) else np.zeros((0, 4))),

@@ -86,7 +86,7 @@ class Layout:
 
     @property
     def torque_index(self) -> list[int]:
-        """Return the columns of the torques among the sixteen."""
+        """Return the columns of the torques among all of them."""
         return [torque_terms.TERMS.index(term) for term in self.terms]
 
     @property
@@ -117,7 +117,7 @@ class Unknowns:
     w0: Vector3  # rad/s
     six: Vector6  # of J_C, masses at home
     com: Vector3  # m, masses at home
-    torque: Floats  # (16,)
+    torque: Floats  # (19,)
     sensor: Floats  # (24,)
     error: Floats  # (e,) in the units of ``mass_errors.unit_of``
     bias: Vector3  # rad/s
@@ -144,9 +144,10 @@ def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
     """Return a size natural to each torque coefficient.
 
     For a moment of inertia (kg m^2) and a weight (N): damping in 10 s, the torque of 10 um, a sag
-    of 10 um, a drift of 1 um/s.
+    of 10 um, a drift of 1 um/s, 1 um for each kelvin.
     """
-    by_group = {"viscous": 0.1 * inertia, "quadratic": inertia, "sag": 1e-5, "drift": 1e-6}
+    by_group = {"viscous": 0.1 * inertia, "quadratic": inertia, "sag": 1e-5, "drift": 1e-6,
+                "thermal": 1e-6}  # fmt: skip
     return np.array([by_group.get(term.split("_")[0], 1e-5 * weight) for term in terms])
 
 

@@ -76,7 +76,7 @@ class Params:
     com_walk: float = 5e-8  # m/sqrt(s): 0.05 um, thermal drift; chosen within 0.01 to 0.1
     torque_walk: float = 1e-6  # N m sqrt(s): air and bearing torques on a platform of some kg
     bias_walk: float = 1e-7  # rad/s/sqrt(s)
-    torque: Floats | None = None  # (16,) known coefficients
+    torque: Floats | None = None  # (19,) known coefficients
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,11 +15,11 @@ from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
 from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
-from equipoise.model.recording import Recording, join
+from equipoise.model.recording import Recording, join, warms
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS, among
 
-DRIFT = GROUPS["drift"]
+DRIFT, THERMAL = GROUPS["drift"], GROUPS["thermal"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,17 +72,20 @@ def learn(
     fresh: Recording,
     testbed: Testbed,
     allowed: Budget = UNLIMITED,
-    considered: tuple[str, ...] = DRIFT,
+    considered: tuple[str, ...] = (*DRIFT, *THERMAL),
 ) -> Knowledge:
     """Return the knowledge with a fresh record added; the testbed's values are the prior.
 
     Torques that are ``considered`` are in the model, as large as benches have them: what the record
     does not show of them widens intervals. Once it supports them, they are found, and from then on
-    as open as those that the testbed declares. Cannot tell them from torques that are neither.
+    as open as those that the testbed declares. Warmth is among them where a temperature changed.
+    Cannot tell them from torques that are neither.
     """
     testbed = as_if_stiff(testbed)
     recording = fresh if before is None else join(before.recording, fresh)
     found = () if before is None else before.found
+    if not warms(recording):
+        considered = tuple(term for term in considered if term not in THERMAL)
     params = params_of(testbed, found, considered, allowed)
     knowledge = fitted_in(params, before, recording, testbed, found)
     if not is_supported(knowledge.estimate, params.typical):

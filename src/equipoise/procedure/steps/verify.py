@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.special import ndtr
 
+from equipoise.dynamics.timeline import warmth
 from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.gaussian_length import SURE, Bounded
 from equipoise.model.arrays import Matrix3, Vector3
@@ -21,7 +22,7 @@ from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.gaussian_box import bounded_use, probability_inside
-from equipoise.procedure.steps.joint_fit import DRIFT, Knowledge
+from equipoise.procedure.steps.joint_fit import DRIFT, THERMAL, Knowledge
 
 CONTRADICTION = 4.0  # sd between what a move predicted and what was found
 FRESH = 8.0  # s, chosen: least record since the last move for a verdict
@@ -60,11 +61,15 @@ def fresh_misfit(knowledge: Knowledge, since: float) -> float:
 
 
 def com_then(knowledge: Knowledge, since: float) -> tuple[Vector3, Vector3]:
-    """Return the centre of mass less its drift since a time (s), as far as is known, and sd (m)."""
-    estimate, seconds = knowledge.estimate, knowledge.recording.span[1] - since
-    drifts = [(k, name) for k, name in enumerate(DRIFT) if estimate.has(name)]
-    rows = np.hstack([np.eye(3), -seconds * np.eye(3)[:, [k for k, _ in drifts]]])
-    names = (*knowledge.standing, *(name for _, name in drifts))
+    """Return com less its drift and warmth since a time (s), as far as is known, and sd (m)."""
+    estimate, record = knowledge.estimate, knowledge.recording
+    end = record.span[1]
+    warmer = warmth(record.temperature, np.array([since, end]))[1, 0]
+    ways = [(DRIFT, end - since), (THERMAL, warmer)]
+    moving = [(-amount * np.eye(3)[k], name) for names, amount in ways
+              for k, name in enumerate(names) if estimate.has(name)]  # fmt: skip
+    rows = np.column_stack([np.eye(3), *(way for way, _ in moving)])
+    names = (*knowledge.standing, *(name for _, name in moving))
     spread = rows @ estimate.covariance_of(names) @ rows.T
     return rows @ estimate.values(names), np.sqrt(np.diag(spread))
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import HUBER, Params, problem_of
 from equipoise.estimation.parameters.fit_parameters import FIXED, R, Unknowns
@@ -15,7 +16,7 @@ from equipoise.maths.pseudo_inertia import from_inertia
 from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.sensor_terms import TERMS as SENSOR_TERMS
-from equipoise.model.torque_terms import expand
+from equipoise.model.torque_terms import TERMS
 from equipoise.sensors.camera import DELAY, GYRO
 from tests.support.builders import (
     ATTITUDE,
@@ -24,6 +25,7 @@ from tests.support.builders import (
     INERTIA,
     MASS,
     RATE,
+    WARMING,
     camera_says,
     line_of,
     move_at,
@@ -34,7 +36,6 @@ from tests.support.builders import (
 )
 from tests.support.plain_problem import noded, stepped, with_errors
 
-EVERY_TERM = expand(("viscous", "quadratic", "constant", "swirl", "sag", "drift"))
 BIAS = np.array([2e-3, -1e-3, 3e-3])
 SENSOR = np.concatenate([
     [3e-3, -2e-3],  # plumb
@@ -60,8 +61,8 @@ def somewhere(errors: int, sensor: np.ndarray | None = None) -> Unknowns:
     inertia = unpack_symmetric(INERTIA * [1.02, 1.01, 0.98, 1.1, 0.9, 1.2])
     six = from_inertia(inertia - parallel_axis(MASS, com))
     q0 = multiply(ATTITUDE, exponential(np.array([3e-3, -2e-3, 1e-3])))
-    torque = np.array([2, 3, 1, 20, 0.1, -0.2, 0.03, 0.2, 0, 0, 0, 0, 0, 0, 0, 0]) * 1e-4
-    torque[8:] = np.array([3, -2, 4, 1, -5, 0.1, -0.2, 0.05]) * 1e-7
+    torque = np.append(np.array([2, 3, 1, 20, 0.1, -0.2, 0.03, 0.2]) * 1e-4, np.zeros(11))
+    torque[8:] = np.array([3, -2, 4, 1, -5, 0.1, -0.2, 0.05, 0.3, -0.5, 0.4]) * 1e-7
     error = np.array([2e-4, -3e-4, 1e-4])[:errors]
     observed = np.zeros(24) if sensor is None else sensor
     return Unknowns(q0, RATE * 1.01, six, com, torque, observed, error, BIAS)
@@ -82,7 +83,7 @@ def case(request):
     if sensor:
         camera = record.attitude
         record = replace(record, attitude=Samples(camera.t[1:], camera.values[1:]))
-    return record, Params(EVERY_TERM, sensor, robust=robust)
+    return replace(record, temperature=WARMING), Params(TERMS, sensor, robust=robust)
 
 
 @pytest.fixture(scope="module")
@@ -248,7 +249,7 @@ def test_every_parameter_has_information(posed):
     problem, point = posed
     information = np.diag(evaluate(problem, point).normal) - problem.prior.weight
     assert (information > 0).all()
-    assert problem.layout.size == FIXED + 16 + 3 + len(problem.layout.sensor) + 3
+    assert problem.layout.size == FIXED + N_TORQUES + 3 + len(problem.layout.sensor) + 3
 
 
 # --- Rows that are means ------------------------------------------------------------------------
@@ -273,7 +274,7 @@ def moving(w0):
     t = np.arange(0, 10.01, 0.05)
     motion = travel(line_of(t), w0=w0)
     record = Recording(Samples(t[::4], motion.q[::4]), Samples(t, motion.rate))
-    return record, replace(somewhere(0), w0=w0, torque=np.zeros(16))
+    return record, replace(somewhere(0), w0=w0, torque=np.zeros(N_TORQUES))
 
 
 def windows(t, delay, width, start):

@@ -39,6 +39,7 @@ from tests.support.builders import (
     GRAVITY,
     INERTIA,
     MASS,
+    WARMING,
     body,
     move_at,
     platform,
@@ -69,8 +70,10 @@ FORMULATIONS = {
 def moved():
     """A minute of motion with a move, a wheel, a known torque and every torque of the model."""
     t = np.linspace(0, END, round(END / STEP) + 1)
-    line = timeline(t, np.zeros(0), MOVE, 3, 1.0, WHEEL, PUSH)
-    record = Recording(masses=MOVE, mass_names=("x", "y", "z"), momentum=WHEEL, torque=PUSH)
+    line = timeline(t, np.zeros(0), MOVE, 3, 1.0, WHEEL, PUSH, temperature=WARMING)
+    record = Recording(
+        masses=MOVE, mass_names=("x", "y", "z"), momentum=WHEEL, torque=PUSH, temperature=WARMING
+    )
     return record, line.t, travel(line, body(EVERY_TORQUE))
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
 from equipoise.dynamics.regressor import MOMENT, TORQUE, WIDTH, regressor
-from equipoise.dynamics.timeline import straight_lines
+from equipoise.dynamics.timeline import straight_lines, warmth
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.compiled import kernel
 from equipoise.maths.linalg import unpack_symmetric
@@ -39,12 +39,12 @@ class Columns(NamedTuple):
 
 @kernel
 def regressor_rows(
-    w: Floats, g: Floats, t: Floats, mass: float, gravity: float, out: Floats
+    w: Floats, g: Floats, t: Floats, warm: Floats, mass: float, gravity: float, out: Floats
 ) -> None:
-    """Write the regressor of every sample, shape (n, 3, 25)."""
+    """Write the regressor of every sample, shape (n, 3, 28)."""
     for i in range(t.shape[0]):
         wi, gi = (w[i, 0], w[i, 1], w[i, 2]), (g[i, 0], g[i, 1], g[i, 2])
-        regressor(wi, gi, t[i] - t[0], mass, gravity, True, out[i])
+        regressor(wi, gi, t[i] - t[0], warm[i], mass, gravity, True, out[i])
 
 
 def known_momentum(
@@ -78,7 +78,8 @@ def columns(
     R = to_matrix(q)
     g = np.ascontiguousarray(-testbed.gravity * R[:, 2, :])
     full = np.zeros((len(t), 3, WIDTH))
-    regressor_rows(w, g, t, testbed.body.mass, testbed.gravity, full)
+    warm = warmth(recording.temperature, t)[:, 0]
+    regressor_rows(w, g, t, warm, testbed.body.mass, testbed.gravity, full)
     wanted = [TORQUE + torque_terms.TERMS.index(term) for term in terms]
     torque = full[:, :, [*range(MOMENT, TORQUE), *wanted]]
     torque[:, :, :3] *= testbed.body.mass

@@ -45,6 +45,7 @@ TORQUE_SD = {  # chosen: a hundred times what air bearings show
     "swirl": 1e-2,
     "sag": 1e-3,
     "drift": 1e-4,
+    "thermal": 1e-3,
 }
 
 Share = Callable[[Series1], float]

@@ -1,0 +1,114 @@
+"""A centre of mass that moves by itself, undeclared, by masses that nobody knows, of MuJoCo."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.estimation.model_selection.reference_fit import estimate
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.model.estimate import COM, END
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.recording import Samples, warms
+from equipoise.model.testbed import AttitudeSensor, Gyro
+from equipoise.model.torque_terms import GROUPS
+from tests.oracle import cases
+from tests.oracle import mujoco_bench as oracle
+
+CAMERA, GYRO = AttitudeSensor(5.0, np.radians(0.1)), Gyro(10.0, 1e-4, np.radians(0.5))
+DRIFT, THERMAL = 1e-6 / 60, 1e-6  # m/s, m/K
+SECONDS, HIDDEN = 240.0, 0.05  # s; kg of each mass that nobody knows
+LAMP, SLOW, WARMER = 40.0, 60.0, 3.0  # s when it goes on, s of its e-fold, K in the end
+MOVE = np.array([-0.010, -0.010, -0.030])  # m, of the known masses at half of the record
+SPIN = np.radians(30.0)
+
+
+def drift(t):
+    """Return how far (m) it drifts until t (s)."""
+    return DRIFT * t
+
+
+def warmth(t):
+    """Return by how much (K) a lamp has warmed it."""
+    return WARMER * -np.expm1(-np.maximum(t - LAMP, 0.0) / SLOW)
+
+
+def moving(seed: int, spin: float, course):
+    """Return platform, way of the motion, record of the known masses alone, and testbed."""
+    case, rng = cases._fourteen_case(seed, 300.0, CAMERA, GYRO), np.random.default_rng([seed, 9])
+    way = rng.normal(size=3)
+    way /= np.linalg.norm(way)
+    hidden = tuple(
+        oracle.Slide(f"h{k}", HIDDEN, np.full(3, 0.1), e) for k, e in enumerate(np.eye(3))
+    )
+    known = case.platform
+    rate = known.rate + np.array([0.0, 0.0, spin])
+    platform = replace(known, slides=known.slides + hidden, rate=rate)
+    t = oracle.middles(SECONDS, 1e-3)[:, None]
+    share = oracle.smooth(np.clip((t - SECONDS / 2) / 3.0, 0.0, 1.0))
+    wanted = np.hstack([share * MOVE, course(t) * way * known.mass / HIDDEN])
+    run = oracle.driven(platform, wanted, np.zeros_like(wanted[:, :3]))
+    record = oracle.sensor_log(run, rng, 5.0, CAMERA.noise, 10.0, GYRO.noise, mass_rate=10.0)
+    masses = replace(record.masses, values=record.masses.values[:, :3])
+    record = replace(record, mass_names=record.mass_names[:3], masses=masses)
+    return known, way, record, case.testbed
+
+
+@pytest.mark.parametrize("spin", [0.0, SPIN])
+def test_a_drift_is_found_and_its_declaration_stated(spin):
+    """1 um/min for four minutes, at rest or spinning: within 4 sd, com too; nothing is an event."""
+    platform, way, record, testbed = moving(0, spin, drift)
+    found = estimate(record, testbed, Params())
+    names = (*GROUPS["drift"], *COM)
+    truth = np.concatenate([DRIFT * way, platform.com])
+    sd = np.sqrt(np.diag(found.covariance_of(names)))
+    assert np.abs((found.values(names) - truth) / sd).max() < 4.0
+    assert not found.events
+    (reason,) = [r for r in found.outcome.reasons if r.code is Why.TERMS_TO_DECLARE]
+    assert reason.parameters == ("drift",)
+    assert "[disturbance] consider in the testbed file: drift" in reason.sentence
+
+
+def thermometer(noise: float) -> Samples:
+    """A reading every 2 s, to 1 mK, that errs by ``noise`` K."""
+    t = np.arange(0.0, SECONDS + 1.0, 2.0)
+    error = np.random.default_rng(1).normal(scale=noise, size=len(t))
+    return Samples(t, np.round(21.3 + warmth(t) + error, 3)[:, None])
+
+
+@pytest.mark.parametrize("spin", [0.0, SPIN])
+def test_a_lamps_warmth_is_found_by_the_recorded_temperature(spin):
+    """3 um in minutes, of a lamp that goes on at 40 s: within 4 sd, com too; no events."""
+    platform, way, record, testbed = moving(0, spin, lambda t: THERMAL * warmth(t))
+    found = estimate(replace(record, temperature=thermometer(0.0)), testbed, Params())
+    names = (*GROUPS["thermal"], *COM)
+    truth = np.concatenate([THERMAL * way, platform.com])
+    sd = np.sqrt(np.diag(found.covariance_of(names)))
+    assert np.abs((found.values(names) - truth) / sd).max() < 4.0
+    assert not found.events
+    end = np.array([found.values((name,))[0] for name in END])
+    moved = com_shift(mass_maps(testbed.masses), platform.mass, MOVE)
+    np.testing.assert_allclose(
+        end - found.com, THERMAL * way * warmth(SECONDS) + moved, rtol=0, atol=3e-7
+    )
+    (reason,) = [r for r in found.outcome.reasons if r.code is Why.TERMS_TO_DECLARE]
+    assert reason.parameters == ("thermal",)
+
+
+def test_a_thermometer_that_errs_leaves_com_as_certain_as_stated():
+    """By 0.05 K a reading, which moves com by 0.05 um: com within 4 sd, the term is there."""
+    platform, _, record, testbed = moving(0, SPIN, lambda t: THERMAL * warmth(t))
+    found = estimate(replace(record, temperature=thermometer(0.05)), testbed, Params())
+    sd = np.sqrt(np.diag(found.covariance_of(COM)))
+    assert np.abs((found.com - platform.com) / sd).max() < 4.0
+    assert all(found.has(name) for name in GROUPS["thermal"])
+
+
+def test_a_temperature_that_does_not_change_is_no_candidate():
+    """Nor one that was never recorded: its columns would be zero."""
+    record = moving(0, SPIN, drift)[2]
+    steady = Samples(np.array([0.0, SECONDS]), np.array([[21.0], [21.0]]))
+    assert not warms(record)
+    assert not warms(replace(record, temperature=steady))
+    assert warms(replace(record, temperature=thermometer(0.0)))
