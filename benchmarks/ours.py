@@ -16,6 +16,7 @@ from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.mass_properties import MassProperties, parallel_axis
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, SlidingMass, Testbed
+from equipoise.sensors.camera import N_SENSOR
 
 Answer = TypeVar("Answer")
 
@@ -46,7 +47,7 @@ def unknowns_of(problem: Problem, point: Point) -> Unknowns:
     """Return one of the peers' points as the library keeps it."""
     inertia_C = unpack_symmetric(point.inertia) - parallel_axis(problem.mass, point.com)
     six = pseudo_inertia.from_inertia(inertia_C)
-    still, exact = np.zeros(N_TORQUES), (np.zeros(24), np.zeros(0))  # sensors, stops
+    still, exact = np.zeros(N_TORQUES), (np.zeros(N_SENSOR), np.zeros(0))  # sensors, stops
     none = (still, *exact, np.zeros(3))
     return Unknowns(point.q, point.rate, six, point.com, *none)
 

@@ -21,6 +21,7 @@ from equipoise.model.arrays import Floats, Vector6
 from equipoise.model.mass_properties import MassProperties, parallel_axis
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.camera import N_SENSOR
 from tests.support import builders
 
 SECONDS, MOVED_AT = 120.0, 60.0
@@ -63,7 +64,9 @@ def true_point(q0: Floats, inertia: Vector6 = PUBLISHED) -> Unknowns:
     about_C = unpack_symmetric(inertia) - parallel_axis(builders.MASS, builders.COM)
     six = pseudo_inertia.from_inertia(about_C)
     rate, com = builders.RATE, builders.COM
-    return Unknowns(q0, rate, six, com, np.zeros(N_TORQUES), np.zeros(24), np.zeros(0), np.zeros(3))
+    return Unknowns(
+        q0, rate, six, com, np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(0), np.zeros(3)
+    )
 
 
 def information(problem: Problem, q0: Floats, inertia: Vector6 = PUBLISHED) -> Floats:

@@ -13,6 +13,7 @@ from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import RATE as RATES
 from equipoise.model.mass_properties import MassProperties, parallel_axis
 from equipoise.model.recording import Recording, Samples
+from equipoise.sensors.camera import N_SENSOR
 from tests.support.builders import (
     ATTITUDE,
     COM,
@@ -36,7 +37,7 @@ KINDS = {
 }
 SIX = from_inertia(unpack_symmetric(INERTIA) - parallel_axis(MASS, COM))
 TRUTH = Unknowns(
-    ATTITUDE, START, SIX, COM, np.zeros(N_TORQUES), np.zeros(24), np.zeros(0), np.zeros(3)
+    ATTITUDE, START, SIX, COM, np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(0), np.zeros(3)
 )
 
 

@@ -13,6 +13,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "camera_delay": ("camera_delay",),
     "gyro_scale": ("gyro_xx", "gyro_yy", "gyro_zz"),
     "gyro_cross": ("gyro_xy", "gyro_xz", "gyro_yx", "gyro_yz", "gyro_zx", "gyro_zy"),
+    "gyro_clock": ("gyro_clock",),
 }
 TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in group)
 UNITS: dict[str, str] = {

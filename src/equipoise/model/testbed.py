@@ -27,6 +27,7 @@ from equipoise.model.weights import Weight, WeightGrid
 
 SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
 PLUMB_SD = math.radians(0.3)  # chosen: a camera levelled by eye, or a floor for the vertical
+CLOCK_SD = 1e-4  # relative, chosen: a crystal
 AT_STOP = 0.98  # of the tilt limit, chosen: 0.6 deg of 30, three times a camera's noise
 LAG_SD = 0.03  # s, chosen: a soft servo's 25 ms, or a row of a log at 50 Hz
 
@@ -89,6 +90,7 @@ class Gyro:
     averaging: float = 0.0  # s
     quantum: float = 0.0  # rad/s, rates come in multiples of it; 0: as they are
     clock_sd: float = 0.0  # -, relative, of the rate of its clock, one sd; 0: exact
+    clock: float = 0.0  # -, not of a file: how fast beside a camera's a survey found it
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,8 +22,8 @@ from equipoise.maths.compiled import kernel, part
 from equipoise.maths.turns import to_body, to_laboratory, turned
 from equipoise.model.arrays import Floats, Triple
 
-PLUMB, HEADING, DELAY, GYRO = 0, 2, 14, 15  # where a list of coefficients keeps each group
-N_SENSOR = 24
+PLUMB, HEADING, DELAY, GYRO, CLOCK = 0, 2, 14, 15, 24  # where a list of coefficients keeps each
+N_SENSOR = 25
 
 
 class Seeing(NamedTuple):

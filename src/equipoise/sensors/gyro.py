@@ -1,11 +1,13 @@
 """What a gyro triad says of a rate, compiled.
 
-w_said = (E + M) w + b         M: scale errors on the diagonal, misalignment beside it
+w_said = (E + M) w( t - c (t - t0) ) + b    M: scale errors on the diagonal, misalignment beside it
+
+A row is stamped t by a clock that is fast by c beside the camera's.
 """
 
 from equipoise.maths.compiled import part
 from equipoise.model.arrays import Floats, Nine
-from equipoise.sensors.camera import GYRO
+from equipoise.sensors.camera import CLOCK, GYRO
 
 
 @part
@@ -19,9 +21,9 @@ def gyro_matrix(sensor: Floats) -> Nine:
 
 @part
 def entry(term: int) -> tuple[int, int]:
-    """Return row and column in M of a coefficient; row -1 where it is not the gyro's."""
+    """Return row and column in M of a coefficient; row -1 where it is none of M."""
     k = term - GYRO
-    if k < 0:
+    if k < 0 or term >= CLOCK:
         return -1, 0
     if k < 3:
         return k, k

@@ -22,6 +22,7 @@ from equipoise.maths.pseudo_inertia import from_inertia
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import RATE as RATES
 from equipoise.model.mass_properties import parallel_axis
+from equipoise.sensors.camera import N_SENSOR
 from tests.support.builders import (
     ATTITUDE,
     COM,
@@ -69,7 +70,7 @@ def somewhere(errors):
     q0 = multiply(ATTITUDE, exponential(np.array([3e-3, -2e-3, 1e-3])))
     torque = 2e-5 * (np.arange(N_TORQUES) == 7)
     error = np.array([2e-4, -3e-4, 1e-4])[:errors]
-    return Unknowns(q0, RATE * 1.01, six, com, torque, np.zeros(24), error, np.full(3, 1e-3))
+    return Unknowns(q0, RATE * 1.01, six, com, torque, np.zeros(N_SENSOR), error, np.full(3, 1e-3))
 
 
 @pytest.fixture(scope="module")

@@ -22,6 +22,7 @@ from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.maths.pseudo_inertia import FLOOR, from_inertia
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.mass_properties import parallel_axis, second_moments, smallest_second_moment
+from equipoise.sensors.camera import N_SENSOR
 from tests.support.builders import ATTITUDE, COM, INERTIA, MASS, RATE
 
 LAYOUT = Layout(("viscous_y", "sag_xz"), ("error_x_1",), bias=True)
@@ -34,7 +35,7 @@ steps = arrays(np.float64, LAYOUT.size, elements=st.floats(-1.0, 1.0)).map(lambd
 def point(inertia=INERTIA, com=COM) -> Unknowns:
     six = from_inertia(unpack_symmetric(inertia) - parallel_axis(MASS, com))
     return Unknowns(
-        ATTITUDE, RATE, six, com, np.zeros(N_TORQUES), np.zeros(24), np.zeros(1), np.zeros(3)
+        ATTITUDE, RATE, six, com, np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(1), np.zeros(3)
     )
 
 
@@ -76,7 +77,7 @@ def plain_retract(start, step):
     six = from_inertia(inertia_P - parallel_axis(MASS, com))
     q0 = multiply(start.q0, exponential(step[:3]))
     error, bias = start.error + step[17:18], start.bias + step[18:]
-    return Unknowns(q0, start.w0 + step[3:6], six, com, torque, np.zeros(24), error, bias)
+    return Unknowns(q0, start.w0 + step[3:6], six, com, torque, np.zeros(N_SENSOR), error, bias)
 
 
 def plain_boundary(start, step):
@@ -157,11 +158,11 @@ def test_two_boundaries_at_once():
 
 def test_a_point_is_kept_flat_and_found_again():
     """The order is that of the record's fields."""
-    numbers = np.arange(63.0)
+    numbers = np.arange(64.0)
     parts = unknowns_of(numbers)
     assert parts.flat.tolist() == numbers.tolist()
     assert (parts.q0[0], parts.w0[0], parts.six[0], parts.com[0]) == (0.0, 4.0, 7.0, 13.0)
-    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [59.0], 60.0)
+    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [60.0], 61.0)
 
 
 def test_names_units_and_coordinates_have_one_length():

@@ -10,6 +10,7 @@ from equipoise.estimation.parameters.observability import Visibility, natural_si
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
 from equipoise.model.mass_properties import parallel_axis
+from equipoise.sensors.camera import N_SENSOR
 from tests.support.builders import ATTITUDE, COM, INERTIA, MASS, RATE
 
 LAYOUT = Layout(("swirl",), ("error_x_1",), bias=True)
@@ -21,7 +22,7 @@ POINT = Unknowns(
     from_inertia(J_C),
     COM,
     np.zeros(N_TORQUES),
-    np.zeros(24),
+    np.zeros(N_SENSOR),
     np.zeros(1),
     np.zeros(3),
 )
@@ -139,7 +140,14 @@ def test_natural_sizes_by_hand():
     assert by_name["com_x"] == pytest.approx(np.linalg.norm(COM))
     assert by_name["error_x_1"] == 1e-3
     centred = Unknowns(
-        ATTITUDE, RATE, POINT.six, np.zeros(3), np.zeros(N_TORQUES), np.zeros(24), np.zeros(1), RATE
+        ATTITUDE,
+        RATE,
+        POINT.six,
+        np.zeros(3),
+        np.zeros(N_TORQUES),
+        np.zeros(N_SENSOR),
+        np.zeros(1),
+        RATE,
     )
     assert natural_sizes(centred, MASS, LAYOUT)[R].tolist() == [1e-5] * 3
 

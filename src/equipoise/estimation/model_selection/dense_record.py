@@ -61,9 +61,11 @@ def fitted_means(few: Condensed, params: Params) -> tuple[Recording, Testbed, Pa
 def with_noise_of(few: Condensed, model: RecordModel, testbed: Testbed) -> Testbed:
     """Return the testbed with a row's noise by that of the means: times sqrt(k).
 
-    Of the masses what the model says of their log holds for all rows, too.
+    What the model says of the masses' log and of the gyro's clock holds for all rows, too.
     """
-    testbed = replace(testbed, masses=model.testbed.masses)
+    gyro, found = testbed.gyro, model.testbed.gyro
+    gyro = gyro and replace(gyro, clock=found.clock if found else 0.0)
+    testbed = replace(testbed, masses=model.testbed.masses, gyro=gyro)
     camera, gyro = camera_noise(model.testbed), gyro_noise(model.testbed)
     return with_noise(testbed, camera * few.attitude_rows**0.5, gyro * few.rate_rows**0.5)
 

@@ -13,6 +13,9 @@ it is as likely there as not, leaving it out moves com by several sd.
 A log of the masses that was stamped late is such an error, too: what explains a jump at the time of
 a recorded move first is that move.
 
+A gyro's clock that is fast beside the camera's turns the spin away from the rows, the more the
+longer the record: it is a term, too, and the rows are timed anew by what was found (``retimed``).
+
 An unknown event may resemble a term, and a term events. So a term that promises as much as an
 event is taken before it (``is_lawful``), and every term is put to the test again when all else is
 known (``bared``).
@@ -48,11 +51,11 @@ from equipoise.model.recording import warms
 
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
-DELAY = sensor_terms.GROUPS["camera_delay"]
+DELAY, CLOCK = sensor_terms.GROUPS["camera_delay"], sensor_terms.GROUPS["gyro_clock"]
 THERMAL = torque_terms.GROUPS["thermal"]
 LATE_LOG = (LAG,)  # of the masses: an error of theirs, not a term
 SURE = 6.0  # 2 ln ratio
-GROUPS = (PLUMB, HEADING, DELAY, *GYRO, *torque_terms.GROUPS.values())
+GROUPS = (PLUMB, HEADING, DELAY, CLOCK, *GYRO, *torque_terms.GROUPS.values())
 Refused = set[tuple[str, ...]]
 
 
@@ -70,6 +73,8 @@ def candidates(model: RecordModel) -> list[tuple[str, ...]]:
         found.append(DELAY)
     if camera and gyro:
         found += GYRO
+        if model.testbed.gyro is not None and model.testbed.gyro.clock_sd > 0:
+            found.append(CLOCK)
     if spans_of_travels(model) and not all(mass.logged_late for mass in model.testbed.masses):
         found.append(LATE_LOG)
     found += [group for group in torque_terms.GROUPS.values() if group != THERMAL]
@@ -103,12 +108,15 @@ def added_groups(model: RecordModel, requested: Params) -> list[tuple[str, ...]]
     """Return the groups of terms, or what of them, that were not asked for."""
     here, reported = ({*p.sensor, *p.terms} for p in (model.params, requested))
     groups = (tuple(t for t in group if t in here and t not in reported) for group in GROUPS)
-    return [group for group in groups if group]
+    late = [LATE_LOG] if any(mass.logged_late for mass in model.testbed.masses) else []
+    return [*late, *(group for group in groups if group)]
 
 
 def without_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:
     """Return the model without a group of terms, whose coefficients are zero then."""
     params = model.params
+    if group == LATE_LOG:
+        return replace(model, testbed=replace(model.testbed, masses=model.stated.masses))
     sensor, terms = (
         tuple(term for term in terms if term not in group)
         for terms in (params.sensor, params.terms)
@@ -119,17 +127,40 @@ def without_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:
         torque=np.where(np.isin(torque_terms.TERMS, group), 0.0, point.torque),
         sensor=np.where(np.isin(sensor_terms.TERMS, group), 0.0, point.sensor),
     )
-    return replace(
+    less = replace(
         model,
         params=replace(params, sensor=sensor, terms=terms),
         fitted=replace(fitted, point=bare),
     )
+    return with_clock(less, 0.0) if group == CLOCK else less
+
+
+def with_clock(model: RecordModel, fast: float) -> RecordModel:
+    """Return the model with the gyro's rows timed by a clock that is so fast, not fitted yet."""
+    assert model.testbed.gyro is not None
+    gyro = replace(model.testbed.gyro, clock=fast)
+    return replace(model, testbed=replace(model.testbed, gyro=gyro))
+
+
+def retimed(model: RecordModel) -> RecordModel:
+    """Return the model with the gyro's rows where the clock that was found puts them, fitted again.
+
+    A row is read within its step of integration; a clock that is off takes it many steps away.
+    """
+    gyro, point = model.testbed.gyro, model.fitted.point
+    if not set(CLOCK) <= set(model.params.sensor) or gyro is None:
+        return model
+    at = sensor_terms.TERMS.index(CLOCK[0])
+    sensor = np.where(np.arange(len(point.sensor)) == at, 0.0, point.sensor)
+    fitted = replace(model.fitted, point=replace(point, sensor=sensor))
+    timed = with_clock(replace(model, fitted=fitted), gyro.clock + float(point.sensor[at]))
+    return refitted(timed)
 
 
 def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
     """Return how large the coefficients of a group may well be, one sd."""
     if is_of_sensors(group):
-        return sensor_sizes(group, model.testbed.attitude)
+        return sensor_sizes(group, model.testbed)
     testbed = model.testbed
     return term_sizes(group, testbed.body.mean_moment, testbed.weight)
 
@@ -173,7 +204,7 @@ def likeliest(models: Sequence[RecordModel]) -> RecordModel:
 
 def extended(model: RecordModel, group: tuple[str, ...], refused: Refused) -> RecordModel:
     """Return the model with a group of terms, if that predicts better; refuse it otherwise."""
-    richer = refitted(with_group(model, group))
+    richer = retimed(refitted(with_group(model, group)))
     if richer.fitted.converged and model.may(Stage.TERMS) and predicts_better(model, richer):
         return richer
     refused.add(group)
@@ -191,6 +222,13 @@ def is_lawful(richer: RecordModel, shaken: RecordModel, group: tuple[str, ...]) 
     if farther(richer, shaken) + counted < CLEAR:
         return True
     return improbability(richer) - improbability(shaken) < CLEAR
+
+
+def all_at_once(model: RecordModel) -> RecordModel:
+    """Return the model with all terms that the record could show, at its optimum."""
+    for group in candidates(model):
+        model = with_group(model, group)
+    return retimed(refitted(model))
 
 
 def bared(model: RecordModel, requested: Params) -> RecordModel:

@@ -22,6 +22,7 @@ from equipoise.estimation.model_selection.initial_model import anchored, plainly
 from equipoise.estimation.model_selection.survey import MOST_EVENTS, is_calm, survey
 from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
+    clock_reasons,
     driven,
     lean_reasons,
     log_reasons,
@@ -106,6 +107,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
     found = [*base.reasons, *event_reasons(concluded, model), *noise_reasons(model)]
     found += [
         *log_reasons(model, concluded),
+        *clock_reasons(model, concluded),
         *lean_reasons(model, concluded),
         *sensor_reasons(model, concluded),
         *term_reasons(model, requested),

@@ -11,7 +11,7 @@ from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import CORE, sensor_sizes
 from equipoise.maths.linalg import inverse_spd
-from equipoise.model import torque_terms
+from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate
 from equipoise.model.reasons.data_reasons import Unexplained
@@ -23,6 +23,7 @@ OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, unre
 IMPLAUSIBLE = 4.0  # sd of real sensors' errors, chosen
 LEANS = 4.0  # sd, chosen: a smaller lean is corrected unreported
 DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which gravity's shows too little
+CLOCK = sensor_terms.GROUPS["gyro_clock"]
 
 
 def noise_reasons(model: RecordModel) -> list[Reason]:
@@ -42,7 +43,7 @@ def noise_reasons(model: RecordModel) -> list[Reason]:
 
 def added(model: RecordModel, requested: Params) -> tuple[str, ...]:
     """Return the terms that the record asked for by itself."""
-    have = {*requested.sensor, *requested.terms, *PLUMB}
+    have = {*requested.sensor, *requested.terms, *PLUMB, *CLOCK}
     return tuple(t for t in (*model.params.sensor, *model.params.terms) if t not in have)
 
 
@@ -77,13 +78,20 @@ def lean_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:
     return [Reason(Why.CAMERA_LEANS, (), {"lean": float(np.linalg.norm(lean))})]
 
 
+def clock_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:
+    """Return by how much the gyro's clock is fast, where the record shows that it is."""
+    if not set(CLOCK) <= set(model.params.sensor):
+        return []
+    return [Reason(Why.GYRO_CLOCK, CLOCK, {"fast": float(concluded.values(CLOCK)[0])})]
+
+
 def sensor_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:
     """Return the errors of sensors that are far larger than any real one, and not by chance.
 
     They may stand for another error, such as an attitude that turns the other way.
     """
     terms = model.params.sensor
-    sizes = sensor_sizes(terms, model.stated.attitude)
+    sizes = sensor_sizes(terms, model.stated)
     found = [concluded.parameters[concluded.index(term)] for term in terms]
     odd = [
         p.name

@@ -19,7 +19,7 @@ Each device turns its own part h of the known momentum, or torque:
     gain      dh = s h              mounting      dh = s e_i x h,   i = x, y, z
 
 A clock that is slow stretches time from the beginning of the record: that of the camera, or of a
-gyro alone, all channels; that of a gyro beside a camera its own rows.
+gyro alone, all channels; that of a gyro beside a camera its own rows, unless a survey found it.
 
 Cannot see errors of inputs within the record, such as a wheel's friction; nor that two inputs that
 are carried contradict each other, which would tell more of either: intervals are then too wide.
@@ -44,6 +44,7 @@ from equipoise.model.testbed import SlidingMass, Testbed
 
 STEP = 1e-3  # sd, chosen: so small that the quotient is a derivative, far above rounding
 AXES = np.eye(3)
+GYRO_CLOCK = "gyro clock"
 
 
 class Varied(NamedTuple):
@@ -95,7 +96,10 @@ def sought_weights(problem: Problem) -> dict[str, int]:
     """Return the inputs that are unknowns of the fit, each with its coordinate in the layout."""
     names = [(weight_of(mass), drive_names(mass.name).gain) for mass in problem.testbed.masses]
     errors, first = problem.layout.errors, problem.layout.mass_errors.start
-    return {name: first + errors.index(gain) for name, gain in names if gain in errors}
+    found = {name: first + errors.index(gain) for name, gain in names if gain in errors}
+    if "gyro_clock" in problem.layout.sensor:
+        found[GYRO_CLOCK] = problem.layout.names.index("gyro_clock")
+    return found
 
 
 def platform_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
@@ -136,7 +140,7 @@ def clocks_varied(recording: Recording, testbed: Testbed, part: float) -> Iterat
     if camera is not None and testbed.gyro is not None:
         gyro_clock = testbed.gyro.clock_sd
         late = stretched(gyro, start, part * gyro_clock)
-        yield Varied("gyro clock", gyro_clock, replace(recording, rate=late), testbed)
+        yield Varied(GYRO_CLOCK, gyro_clock, replace(recording, rate=late), testbed)
 
 
 def alone(testbed: Testbed, device: Device) -> Testbed:

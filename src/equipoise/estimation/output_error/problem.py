@@ -29,7 +29,7 @@ from equipoise.estimation.parameters.fit_parameters import (
 )
 from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.linalg import element_sizes
-from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.arrays import Floats, Series1, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS, typical
@@ -107,7 +107,9 @@ def prior_of(
         sd[JP] = max(testbed.inertia_sd, KNOWN) * element_sizes(testbed.body.inertia_P)
         sd[R] = np.maximum(testbed.com_sd, KNOWN_COM)
     sd[layout.mass_errors] = errors.sd
-    sd[layout.sensors] = sensor_sizes(layout.sensor, testbed.attitude)
+    if "gyro_clock" in names and testbed.gyro is not None:
+        mean[names.index("gyro_clock")] = -testbed.gyro.clock
+    sd[layout.sensors] = sensor_sizes(layout.sensor, testbed)
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
         sd[layout.gyro_bias] = testbed.gyro.bias_sd
     anchor = anchors(testbed, layout, torque_anchor)
@@ -172,6 +174,12 @@ def forward_of(up: Vector3) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
+def on_the_cameras_clock(t: Series1, testbed: Testbed, start: float) -> Series1:
+    """Return times (s) stamped by the gyro's clock, which is as fast as was found since a start."""
+    fast = testbed.gyro.clock if testbed.gyro else 0.0
+    return t - fast * (t - start) if fast else t
+
+
 def pose(
     recording: Recording,
     testbed: Testbed,
@@ -188,7 +196,7 @@ def pose(
     jumps, rails = inside(jumps, *recording.span), rails_of(testbed.masses)
     line = timeline(
         measured_at(attitude.t, testbed.attitude),
-        measured_at(rate.t, testbed.gyro),
+        on_the_cameras_clock(measured_at(rate.t, testbed.gyro), testbed, recording.span[0]),
         on_rails(recording.masses, len(rails)),
         len(rails),
         longest,

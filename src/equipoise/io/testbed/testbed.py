@@ -24,7 +24,8 @@ WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
 
 
 CLOCK: float = Field(
-    0.01, description="one sd of how fast its clock is, chosen: a crystal; 0: exact"
+    100 * model.CLOCK_SD,
+    description="one sd of how fast its clock is, chosen: a crystal; 0: exact",
 )
 
 

@@ -93,6 +93,11 @@ class EstimateReason(Code):
         "camera_leans",
         "The camera's vertical leans {lean:deg .2g} deg from gravity's; that is corrected.",
     )
+    GYRO_CLOCK = (
+        "gyro_clock",
+        "The gyro's clock is {fast:% .2g} % fast beside the camera's (slow, if negative); that is "
+        "corrected.",
+    )
     LATE_LOG = (
         "late_log",
         "Masses travelled {late:ms .0f} ms behind their log (before it, if negative); that is "

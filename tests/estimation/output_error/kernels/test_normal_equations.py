@@ -17,7 +17,7 @@ from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.sensor_terms import TERMS as SENSOR_TERMS
 from equipoise.model.torque_terms import TERMS
-from equipoise.sensors.camera import DELAY, GYRO
+from equipoise.sensors.camera import CLOCK, DELAY, GYRO, N_SENSOR
 from tests.support.builders import (
     ATTITUDE,
     COM,
@@ -43,6 +43,7 @@ SENSOR = np.concatenate([
     np.array([-4, 6, 1, 3, 7, -5]) * 1e-4,  # three times
     [0.02],  # s of delay
     [0.010, -0.020, 0.015, 0.004, -0.006, 0.008, -0.003, 0.005, 0.007],
+    [0.0],  # of the gyro's clock: see below
 ])  # fmt: skip
 
 
@@ -64,14 +65,14 @@ def somewhere(errors: int, sensor: np.ndarray | None = None) -> Unknowns:
     torque = np.append(np.array([2, 3, 1, 20, 0.1, -0.2, 0.03, 0.2]) * 1e-4, np.zeros(11))
     torque[8:] = np.array([3, -2, 4, 1, -5, 0.1, -0.2, 0.05, 0.3, -0.5, 0.4]) * 1e-7
     error = np.array([2e-4, -3e-4, 1e-4])[:errors]
-    observed = np.zeros(24) if sensor is None else sensor
+    observed = np.zeros(N_SENSOR) if sensor is None else sensor
     return Unknowns(q0, RATE * 1.01, six, com, torque, observed, error, BIAS)
 
 
 CASES = {  # robust, sensor terms, when the masses set off: no camera row reaches back across that
     "squares": (False, (), 5.0),
     "robust": (True, (), 5.0),
-    "sensors": (False, SENSOR_TERMS, 5.1),
+    "sensors": (False, SENSOR_TERMS[:CLOCK], 5.1),
 }
 
 
@@ -137,7 +138,7 @@ def camera_rows(problem, point, q, w, turn_by):
     if not problem.layout.sensor:
         return said, turn_by
     by_turn = by_differences(lambda s: camera_says(multiply(q, exponential(s)), sensor, forward), 3)
-    by_term = by_differences(lambda s: camera_says(q, sensor + s, forward), 24)
+    by_term = by_differences(lambda s: camera_says(q, sensor + s, forward), N_SENSOR)
     by_term[:, :, DELAY] = -np.einsum("nij,nj->ni", by_turn, w)
     return said, np.concatenate([by_turn @ turn_by, by_term[:, :, problem.layout.sensor_index]], 2)
 
@@ -147,7 +148,7 @@ GYRO_ENTRIES = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), 
 
 def gyro_rows(problem, point, w, rate_by):
     """Return what the gyro says (n, 3), and its sensitivities to all but its bias."""
-    M, by_term = np.eye(3), np.zeros((len(w), 3, 24))
+    M, by_term = np.eye(3), np.zeros((len(w), 3, N_SENSOR))
     for k, (row, other) in enumerate(GYRO_ENTRIES):
         M[row, other] += point.sensor[GYRO + k]
         by_term[:, row, GYRO + k] = w[:, other]
@@ -250,6 +251,40 @@ def test_every_parameter_has_information(posed):
     information = np.diag(evaluate(problem, point).normal) - problem.prior.weight
     assert (information > 0).all()
     assert problem.layout.size == FIXED + N_TORQUES + 3 + len(problem.layout.sensor) + 3
+
+
+# --- A gyro's clock -----------------------------------------------------------------------------
+
+AHEAD = 2e-4  # relative
+
+
+@pytest.fixture(scope="module")
+def ticking():
+    """A swing under torques, its gyro's clock sought, and a point where that is fast."""
+    record = replace(noisy(recording(20.0, gyro=20.0), 3, BIAS), temperature=WARMING)
+    bed = platform(gyro=True)
+    point = somewhere(0, AHEAD * (np.arange(N_SENSOR) == CLOCK))
+    return record, bed, problem_of(record, bed, Params(TERMS, SENSOR_TERMS[CLOCK:])), point
+
+
+def test_a_clock_is_read_as_rows_that_were_stamped_otherwise(ticking):
+    """The coefficient, or the same rows at the times that such a clock means: 1e-4 sd."""
+    record, bed, problem, point = ticking
+    timed = replace(bed, gyro=replace(bed.gyro, clock=AHEAD))
+    there = replace(point, sensor=np.zeros(N_SENSOR))
+    restamped = evaluate(problem_of(record, timed, Params(TERMS)), there)
+    found = evaluate(problem, point)
+    np.testing.assert_allclose(found.left_w, restamped.left_w, rtol=0, atol=1e-4)
+    without = evaluate(problem, there)
+    assert np.abs(found.left_w - without.left_w).max() > 0.02
+
+
+def test_the_gradient_by_a_clock_is_that_of_the_cost(ticking):
+    """By central differences, of the clock and of all else beside it."""
+    _, _, problem, point = ticking
+    found, numeric = descents(problem, point)
+    np.testing.assert_allclose(found, numeric, rtol=0, atol=1e-5 * np.abs(numeric).max())
+    assert abs(numeric[problem.layout.names.index("gyro_clock")]) > 1e-3
 
 
 # --- Rows that are means ------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
     e_q = log( q_said^-1 (x) q_meas ) / sd,      de_q/dp = -dth/dp / sd
     e_w = ( w_meas - w_said ) / sd,              de_w/dp = -(E + M) dw/dp / sd,  de_w/db = -1 / sd
+                                                 de_w/dc = (E + M) (t - t0) w' / sd
 
 q_said and w_said are what ``sensors.camera`` and ``sensors.gyro`` make of the attitude and rate.
 
@@ -35,6 +36,7 @@ from equipoise.dynamics.rigid_body import (
     body_at,
     body_within,
     drifts,
+    motion,
     rate_of,
     times,
 )
@@ -42,7 +44,7 @@ from equipoise.dynamics.sensitivities import BLOCK, LANES, Inputs, Work, dot, ro
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.turns import to_body, turn
 from equipoise.model.arrays import Floats, Ints, Nine, Six, Triple
-from equipoise.sensors.camera import DELAY, column, less_cross, said, seeing
+from equipoise.sensors.camera import CLOCK, DELAY, column, less_cross, said, seeing
 from equipoise.sensors.gyro import entry, gyro_matrix
 
 SPAN = 3 * LANES  # numbers in a block of three rows of sensitivities
@@ -181,10 +183,13 @@ def camera_rows(
 
 @part
 def rate_rows(
-    inverse: Six, y: Floats, fb: Floats, w: Triple, by: Nine, data: Measurements, scale: float,
-    n: int, S: Floats,
+    inverse: Six, y: Floats, fb: Floats, w: Triple, late: Triple, by: Nine, data: Measurements,
+    scale: float, n: int, S: Floats,
 ) -> None:  # fmt: skip
-    """Write (E + M) dw/dp of n columns, dw = J^-1 (dH - f), and w and b behind them, scaled."""
+    """Write (E + M) dw/dp of n columns, dw = J^-1 (dH - f), and w and b behind them, scaled.
+
+    ``late``: what the rate changes by a clock that is fast by one.
+    """
     for k in range(fb.shape[0] // BLOCK):
         S_k, f = S[k * SPAN : (k + 1) * SPAN], fb[k * BLOCK : (k + 1) * BLOCK]
         dH = y[ROWS + k * BLOCK + SPAN : ROWS + (k + 1) * BLOCK]
@@ -198,6 +203,9 @@ def rate_rows(
         if row >= 0:
             size = w[0] if other == 0 else (w[1] if other == 1 else w[2])
             S[spot(n + j) + row * LANES] = scale * size
+        elif data.terms[j] == CLOCK:
+            i, x = spot(n + j), dot(by, late)
+            S[i], S[i + LANES], S[i + 2 * LANES] = scale * x[0], scale * x[1], scale * x[2]
     for j in range(3):
         S[spot(n + data.terms.shape[0] + j) + j * LANES] = scale
 
@@ -231,18 +239,33 @@ def see_attitude(
 
 @part
 def see_rate(
-    work: Pass, now: Now, by: Nine, w: Triple, bias: Floats, data: Measurements, row: int, n: int,
-    limit: float, left: Floats,
+    work: Pass, now: Now, by: Nine, w: Triple, late: Triple, bias: Floats, data: Measurements,
+    row: int, n: int, limit: float, left: Floats,
 ) -> float:  # fmt: skip
     """Add a row of the gyro, the state and the forcing being those of its time; return its cost."""
     scale, x, r = 1.0 / data.rate_sd, dot(by, w), data.rate[row]
-    rate_rows(now.inverse, work.step.at, work.step.fb, w, by, data, scale, n, work.S_w)
+    rate_rows(now.inverse, work.step.at, work.step.fb, w, late, by, data, scale, n, work.S_w)
     e = (
         scale * (r[0] - x[0] - bias[0]),
         scale * (r[1] - x[1] - bias[1]),
         scale * (r[2] - x[2] - bias[2]),
     )
     return weigh(e, limit, work.S_w, work, left)
+
+
+@part
+def lateness(
+    body: Body, now: Now, w: Triple, g: Triple, age: float, data: Measurements, step: Work
+) -> Triple:
+    """Return -(t - t0) w', w' = J^-1 H' but for what travels; zero where no clock is sought."""
+    sought = False
+    for j in range(data.terms.shape[0]):
+        sought |= data.terms[j] == CLOCK
+    if not sought:
+        return (0.0, 0.0, 0.0)
+    motion(body, now, step.at, w, g, step.regress, step.dy)
+    a = times(now.inverse, (step.dy[4], step.dy[5], step.dy[6]))
+    return (-age * a[0], -age * a[1], -age * a[2])
 
 
 @part
@@ -288,9 +311,12 @@ def accumulate(
             iq += 1
         while iw < w_node.shape[0] and (w_node[iw] == i or i == last):
             share = w_share[iw] if w_node[iw] == i else 1.0
-            interpolate(y0, dy0, y, dy1, h, share, data.rate_spread, step.at)
+            age = t[i] - t[0] + share * h
+            at = share - sensor[CLOCK] * age / h
+            interpolate(y0, dy0, y, dy1, h, at, data.rate_spread, step.at)
             now = body_within(body, maps, t, known, i, share, fixed, here)
-            w, _ = evaluate(body, now, inputs, i, share, step.at, step)
-            cost += see_rate(work, now, by, w, bias, data, iw, n, limit, left_w[iw])
+            w, g = evaluate(body, now, inputs, i, share, step.at, step)
+            late = lateness(body, now, w, g, age, data, step)
+            cost += see_rate(work, now, by, w, late, bias, data, iw, n, limit, left_w[iw])
             iw += 1
     return cost, iq, iw
