@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.filters.model import FIRST_RATE, Kind, Walks
 from equipoise.maths.attitude import difference, exponential, multiply, to_matrix
 from equipoise.model.testbed import Testbed
@@ -65,7 +66,7 @@ def platform_at(testbed, com, J, step, share) -> Here:
     a, b, dt = step
     known, rate = a + share * (b - a), (b - a) / dt
     mu, h = testbed.body.mass * com, known[:3].copy()
-    for mass, d, v in zip(testbed.masses, known[6:], rate[6:], strict=True):
+    for mass, d, v in zip(testbed.masses, known[KNOWN_D:], rate[KNOWN_D:], strict=True):
         there, home = mass.home + d * mass.axis, mass.home
         J = J + mass.mass * (there @ there * np.eye(3) - np.outer(there, there))
         J = J - mass.mass * (home @ home * np.eye(3) - np.outer(home, home))

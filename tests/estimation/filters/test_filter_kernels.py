@@ -164,8 +164,9 @@ def test_jacobian_is_the_complex_step(name):
     kind, testbed = KINDS[name], bench()
     testbed = replace(testbed, body=MassProperties(MASS, COM, unpack_symmetric(INERTIA)))
     rng = np.random.default_rng(5)
-    a = np.concatenate([1e-2 * rng.normal(size=3), 1e-3 * rng.normal(size=3), [0.01, -0.02, 0.03]])
-    b = a + np.concatenate([1e-3 * rng.normal(size=6), [0.001, 0.002, -0.001]])
+    stored, torque = 1e-2 * rng.normal(size=3), 1e-3 * rng.normal(size=3)
+    a = np.concatenate([stored, torque, [0.0], [0.01, -0.02, 0.03]])
+    b = a + np.concatenate([1e-3 * rng.normal(size=6), [0.0], [0.001, 0.002, -0.001]])
     q, w, dt = exponential(np.array([0.2, -0.1, 2.0])), np.array([0.3, -0.5, 0.7]), 0.1
     model = model_of(kind, testbed, 1.0, WALKS)
     rows, n = (6, 15) if kind.attitude else (3, 12 if kind.gyroscopic else 13)
@@ -184,8 +185,8 @@ def test_jacobian_is_the_complex_step(name):
 
 def step_of(dt):
     """One step in which masses travel, a wheel and a torque change."""
-    a = np.array([1e-3, -2e-3, 1e-3, 1e-3, 2e-3, -1e-3, 0.0, 0.0, 0.0])
-    b = a + dt * np.array([1e-3, 1e-3, -2e-3, 1e-3, 0, 1e-3, 0.01, -0.01, 0.01])
+    a = np.array([1e-3, -2e-3, 1e-3, 1e-3, 2e-3, -1e-3, 0.0, 0.0, 0.0, 0.0])
+    b = a + dt * np.array([1e-3, 1e-3, -2e-3, 1e-3, 0, 1e-3, 0, 0.01, -0.01, 0.01])
     q = exponential(np.array([0.2, -0.1, 2.0]))
     q = np.array([q, multiply(q, exponential(dt * 10 * RATE))])
     return Drive(np.array([0.0, dt]), np.vstack([a, b]), q, np.zeros((2, 3, 3)))

@@ -326,7 +326,7 @@ def test_masses_are_displaced_to_where_the_fit_found_them():
     error = motion.fitted.point.error + 2e-3 * (np.arange(len(motion.fitted.point.error)) == k)
     other = replace(motion.fitted, point=replace(motion.fitted.point, error=error))
     here, there = (halfway(fitted)[0].known for fitted in (motion.fitted, other))
-    np.testing.assert_allclose(there[-1, 6:9] - here[-1, 6:9], [0.0, 0.0, 2e-3], atol=1e-12)
+    np.testing.assert_allclose(there[-1, 7:10] - here[-1, 7:10], [0.0, 0.0, 2e-3], atol=1e-12)
     np.testing.assert_allclose(there[0], here[0])
 
 

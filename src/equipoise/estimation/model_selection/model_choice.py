@@ -185,8 +185,11 @@ def surplus(model: RecordModel, group: tuple[str, ...]) -> float:
 
 
 def lead(group: tuple[str, ...]) -> float:
-    """Return the 2 ln ratio that a group needs to be tried."""
-    return 0.0 if is_of_sensors(group) else SURE
+    """Return the 2 ln ratio that a group needs to be tried.
+
+    A clock that is not sought is carried as an input: its sd counts all the same.
+    """
+    return 0.0 if is_of_sensors(group) and group != CLOCK else SURE
 
 
 def best_group(model: RecordModel, refused: Refused) -> tuple[tuple[str, ...], float]:
