@@ -227,13 +227,6 @@ def is_lawful(richer: RecordModel, shaken: RecordModel, group: tuple[str, ...]) 
     return improbability(richer) - improbability(shaken) < CLEAR
 
 
-def all_at_once(model: RecordModel) -> RecordModel:
-    """Return the model with all terms that the record could show, at its optimum."""
-    for group in candidates(model):
-        model = with_group(model, group)
-    return retimed(refitted(model))
-
-
 def bared(model: RecordModel, requested: Params) -> RecordModel:
     """Return the model without the terms that later finds have made needless."""
     for group in added_groups(model, requested):

@@ -54,7 +54,6 @@ from equipoise.estimation.model_selection import survey_reasons
 from equipoise.estimation.model_selection.initial_model import is_close, is_near
 from equipoise.estimation.model_selection.model_choice import (
     Refused,
-    all_at_once,
     bared,
     best_group,
     candidates,
@@ -202,20 +201,6 @@ def lawfully(model: RecordModel, greedy: RecordModel) -> RecordModel:
     return greedy if best is greedy else likeliest([greedy, repeated(best)])
 
 
-def termed(model: RecordModel) -> RecordModel:
-    """Return the model with the terms that explain all between them, if any do, without events.
-
-    Two that are missing hide each other: neither alone promises anything beside what the other
-    leaves, and events take their place. So all are tried at once, and the needless ones go.
-    """
-    if not (is_near(model.fitted) and model.may(Stage.TERMS)) or is_calm(model):
-        return model
-    full = all_at_once(model)
-    if not (full.fitted.converged and is_calm(full)):
-        return model
-    return bared(full, model.params)
-
-
 def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
     """Return the model without process noise, from all that was found at first: ``greedy``.
 
@@ -286,7 +271,7 @@ def examined(model: RecordModel) -> RecordModel:
             return wild
         if not (is_near(model.fitted) and model.fitted.converged):
             return doubted(driven(wild, FEW_EVENTS))
-    greedy = repeated(termed(model))
+    greedy = repeated(model)
     if len(greedy.events) < MANY:
         return doubted(compared(model, calm(model, greedy), wild=wild))
     if not model.may(Stage.MODELS):
