@@ -21,6 +21,7 @@ from equipoise.actuators.reaction_wheels import wheel_momentum
 from equipoise.actuators.sliding_masses import MassMaps, inertia_shift, mass_maps
 from equipoise.actuators.stored_momentum import stored_momentum
 from equipoise.dynamics.propagation import body_of, stacked
+from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.devices import ControlMomentGyro, ReactionWheel
@@ -135,7 +136,7 @@ def reported(given, shown, cmgs, h):
     if cmgs:
         coordinates = np.hstack([coordinates, gimbal_coordinates(cmgs, shown.angles)])
         maps = MassMaps(*map(np.vstack, zip(maps, gimbal_maps(cmgs), strict=True)))
-    return maps, np.hstack([h, np.zeros_like(h), coordinates])
+    return maps, np.hstack([h, np.zeros((len(h), 4)), coordinates])
 
 
 def miss(given, shown, cmgs, h=None):
@@ -143,7 +144,7 @@ def miss(given, shown, cmgs, h=None):
     body = given.platform
     h = momentum(given, shown, cmgs) if h is None else h
     maps, known = reported(given, shown, cmgs, h)
-    J = body.inertia_P + unpack_symmetric(inertia_shift(maps, known[0, 6:]))
+    J = body.inertia_P + unpack_symmetric(inertia_shift(maps, known[0, KNOWN_D:]))
     y = np.concatenate([body.q, J @ body.rate + known[0, :3]])
     rigid = body_of(body.mass, body.gravity, pack_symmetric(body.inertia_P), body.mass * body.com)
     ours = run(rigid, stacked(maps), y, shown.t, known).y[:, :4]
