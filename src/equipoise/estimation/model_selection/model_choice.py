@@ -14,7 +14,7 @@ A log of the masses that was stamped late is such an error, too: what explains a
 a recorded move first is that move.
 
 A gyro's clock that is fast beside the camera's turns what nutates away from the rows, the more
-the longer the record: it is a term, too, and the rows are timed anew by what was found (``retimed``).
+the longer the record: it is a term, too; the rows are timed anew by what was found (``retimed``).
 
 An unknown event may resemble a term, and a term events. So a term that promises as much as an
 event is taken before it (``is_lawful``), and every term is put to the test again when all else is
