@@ -36,7 +36,7 @@ def recorded(fast: float, seed: int = 0):
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_a_gyros_clock_is_found_where_the_motion_shows_it(seed):
-    """0.07 % fast: 5 deg of phase in two minutes. Found to 4 sd, and so are J and com; no events."""
+    """0.07 % fast: 5 deg of phase in two minutes. Found to 4 sd, J and com too; no events."""
     platform, record, testbed = recorded(FAST, seed)
     found = estimate(record, testbed, Params())
     names = ("gyro_clock", *NAMES)
