@@ -9,7 +9,7 @@ from equipoise.actuators.drive_errors import on_rails, rails_of
 from equipoise.actuators.lags import LAG, logged_late
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import propagate, rigid_body
-from equipoise.dynamics.regressor import N_TORQUES
+from equipoise.dynamics.regressor import N_TORQUES, THERMAL
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import TURN_PER_STEP, timeline
 from equipoise.estimation.motion.sampled_motion import sampled_motion
@@ -49,7 +49,7 @@ def run(
         t, np.zeros(0), on_rails(recording.masses, len(rails)), len(rails),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
         recording.momentum, recording.torque, errors.response, errors.owner,
-        temperature=recording.temperature,
+        temperature=recording.temperature if np.any(torque[THERMAL:]) else None,
     )  # fmt: skip
     first = KNOWN_D + len(rails)
     off = [found.get(name, 0.0) for name in errors.names]
