@@ -9,6 +9,7 @@ from equipoise.assessment.record_checks.clock_offset import offset_findings
 from equipoise.assessment.record_checks.exposure_averaging import averaging_findings
 from equipoise.assessment.record_checks.flagged_rows import odd_row_findings
 from equipoise.assessment.record_checks.gyro_consistency import agreement_findings
+from equipoise.assessment.record_checks.mass_flicker import flicker_findings
 from equipoise.assessment.record_checks.rate_quality import rate_findings
 from equipoise.assessment.record_checks.sensor_noise import unstated_findings
 from equipoise.model.errors import nearest
@@ -29,6 +30,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *content_findings(recording),
         *unknown_name_findings("mass", recording.mass_names, masses),
         *move_findings(recording),
+        *flicker_findings(recording, testbed),
         *unknown_name_findings("device", recording.device_names, devices),
         *motion_findings(recording.attitude, up),
         *stop_findings(recording.attitude, testbed),

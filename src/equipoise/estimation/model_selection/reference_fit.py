@@ -36,6 +36,7 @@ from equipoise.estimation.motion.unresolved_rates import without_unresolved_rate
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude, widening
 from equipoise.estimation.output_error.growing_horizon import at_rest
 from equipoise.estimation.output_error.outlier_rejection import without_outliers
+from equipoise.estimation.output_error.profile_likelihood import profiled
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
 from equipoise.estimation.output_error.trajectory import METHOD, Params
@@ -219,7 +220,8 @@ def is_explained(model: RecordModel, found: Estimate) -> bool:
 def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> Estimate:
     """Return the same by what the search found, finished or not."""
     try:
-        concluded = conclude(model.fitted, METHOD, recording, model.coloured)
+        plain = conclude(model.fitted, METHOD, recording, model.coloured)
+        concluded = profiled(plain, model.fitted)
     except np.linalg.LinAlgError:  # of a search that was cut short
         return Estimate(METHOD, UNSETTLED, (), np.zeros((0, 0)))
     if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):

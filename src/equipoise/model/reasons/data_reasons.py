@@ -18,6 +18,11 @@ class Unobservable(Code):
     )
     PARAMETER = "parameter", "the data do not show {0}"
     COMBINATION = "combination", "the data cannot separate: {names}"
+    MISFIT_FLAT = (
+        "misfit_flat",
+        "the data do not show {0}: two sd from its best value chi-square rises by {rise:.2g} only, "
+        "where an interval that holds has 4",
+    )
     TILT = (
         "tilt_open",
         "the data do not show where gravity points, so nor the centre of mass; an attitude sensor "

@@ -37,6 +37,11 @@ class FindingReason(Code):
         "mass {0} moves from {start:mm .4g} to {end:mm .4g} mm between {t_start:.6g} and "
         "{t_end:.6g} s.",
     )
+    MASS_FLICKERS = (
+        "mass_flickers",
+        "mass {0} is logged one step aside and back within a second, {count:.0f} times: it stands "
+        "between two steps of its log, and is taken as standing.",
+    )
     MORE_MOVES = "more_moves", "{count:.0f} further moves of masses."
     TILT_RANGE = "tilt_range", "tilt: {low:deg .3g} to {high:deg .3g} deg."
     TILT_RANGE_OF_AXIS = (

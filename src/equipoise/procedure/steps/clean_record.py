@@ -3,13 +3,14 @@
 Rows that lie off the motion of their neighbours, or repeat the one before, hold no information on
 the platform. Rows that are means of several frames are predicted as means, when the testbed does
 not state their length. Rounded rows are noisier than stated, and a sensor that the testbed does not
-have is as noisy as its rows.
+have is as noisy as its rows. A mass that flickers between two steps of its log stands.
 """
 
 from dataclasses import replace
 
 from equipoise.assessment.record_checks.exposure_averaging import row_averaging, with_window
 from equipoise.assessment.record_checks.flagged_rows import OddRows, odd_attitudes, odd_rates
+from equipoise.assessment.record_checks.mass_flicker import without_flicker
 from equipoise.assessment.record_checks.sensor_noise import shown_camera, shown_gyro
 from equipoise.model.arrays import Bools
 from equipoise.model.recording import Recording, Samples
@@ -42,4 +43,5 @@ def sound(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
     if reported is not None and camera is not None and camera.averaging == 0:
         camera = with_window(camera, reported)
     observed = replace(testbed, attitude=camera, gyro=gyro)
-    return replace(recording, attitude=attitude, rate=rate), observed
+    masses = without_flicker(recording, testbed)
+    return replace(recording, attitude=attitude, rate=rate, masses=masses), observed

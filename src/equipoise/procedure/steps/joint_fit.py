@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.actuators.sliding_masses import shift_by, shift_by_travel
+from equipoise.assessment.record_checks.mass_flicker import without_flicker
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error import trajectory
@@ -82,6 +83,7 @@ def learn(
     Cannot tell them from torques that are neither.
     """
     testbed = as_if_stiff(testbed)
+    fresh = replace(fresh, masses=without_flicker(fresh, testbed))
     recording = fresh if before is None else join(before.recording, fresh)
     found = () if before is None else before.found
     if not warms(recording):

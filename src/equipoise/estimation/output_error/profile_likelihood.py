@@ -1,0 +1,112 @@
+"""Profile likelihood: whether the misfit rises beside an optimum as its interval says.
+
+    rise(x) = 2 (min over all others of cost, at x - cost at the optimum),   4 at 2 sd of a parabola
+
+An interval is that of the plane through one point. Where a record tells a moment of inertia to a
+twentieth of its size or worse, the valley may bend away from the plane, or the search may end at
+the edge of the possible bodies; the plane then tells firmly what the record leaves open. So both
+ends of a wide interval are tried, with everything else sought anew. Where the misfit rises by less
+than half of what the interval says, the number is open. This is the likelihood interval of Venzon
+and Moolgavkar (1988, eq. 4), at two points.
+
+Cannot see what no search from the optimum reaches; an end that no body can have counts as a rise.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.estimation.output_error.fixed_parameters import settle_pinned
+from equipoise.estimation.output_error.problem import Problem
+from equipoise.estimation.output_error.solution import Fitted, cost_of
+from equipoise.estimation.parameters.fit_parameters import CORE, physical
+from equipoise.estimation.parameters.observability import natural_sizes
+from equipoise.model.estimate import BODY, Estimate, Parameter
+from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.data_reasons import Unobservable
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason
+
+WIDE = 0.05  # natural sizes, chosen: within less the valley is a parabola
+APART = 2.0  # sd from the optimum
+LEAST = 0.5 * APART**2  # chosen: of an interval too narrow by the root of two
+FEW = 30  # evaluations, chosen: from an optimum near by
+PART = Reason(Why.PART_UNOBSERVABLE)
+
+
+def profiled(estimate: Estimate, fitted: Fitted) -> Estimate:
+    """Return the estimate without the intervals of inertia and com that the misfit belies."""
+    if not estimate.outcome.usable:
+        return estimate
+    sizes = sizes_of(fitted)
+    flat = {p.name: least for p in (*estimate.parameters, *estimate.ratios)
+            if is_wide(p, sizes) and (least := least_rise(fitted, p)) < LEAST}  # fmt: skip
+    if not flat:
+        return estimate
+    told = estimate.outcome.reasons
+    return replace(
+        estimate,
+        parameters=without_intervals(estimate.parameters, flat),
+        ratios=without_intervals(estimate.ratios, flat),
+        unobservable=(*estimate.unobservable,
+                      *(Reason(Unobservable.MISFIT_FLAT, (name,), {"rise": least})
+                        for name, least in flat.items())),
+        outcome=Outcome(told if PART in told else (*told, PART)),
+    )  # fmt: skip
+
+
+def sizes_of(fitted: Fitted) -> dict[str, float]:
+    """Return the natural size of each part of the inertia and of the centre of mass."""
+    size = natural_sizes(fitted.point, fitted.problem.mass, fitted.problem.layout)
+    return dict(zip(BODY, size[CORE].tolist(), strict=True))
+
+
+def without_intervals(
+    parameters: tuple[Parameter, ...], flat: Mapping[str, float]
+) -> tuple[Parameter, ...]:
+    """Return parameters of which some are open."""
+    return tuple(
+        replace(p, sd=np.inf, observable=False) if p.name in flat else p for p in parameters
+    )
+
+
+def is_wide(parameter: Parameter, sizes: Mapping[str, float]) -> bool:
+    """Say whether a part of the body, or a ratio to another, is known so badly that it is tried."""
+    first, *top = parameter.name.split("/")
+    if first not in sizes or not parameter.observable:
+        return False
+    size = sizes[first] / (sizes[top[0]] if top else 1.0)
+    return parameter.sd > WIDE * size
+
+
+def least_rise(fitted: Fitted, parameter: Parameter) -> float:
+    """Return by how much the misfit rises at that end of an interval where it rises less."""
+    return min(rise(fitted, parameter, side * APART * parameter.sd) for side in (-1.0, 1.0))
+
+
+def held_at(problem: Problem, values: Mapping[str, float]) -> Problem:
+    """Return the problem with some values held where they are given."""
+    prior, names = problem.prior, problem.layout.names
+    mean, held = prior.mean.copy(), prior.held.copy()
+    for name, value in values.items():
+        k = names.index(name)
+        mean[k], held[k] = value, True
+    return replace(problem, prior=replace(prior, mean=mean, held=held), scale_open=False)
+
+
+def end_of(fitted: Fitted, parameter: Parameter, away: float) -> dict[str, float]:
+    """Return what is held where a parameter is ``away`` from its value: of a ratio, both."""
+    problem = fitted.problem
+    names = parameter.name.split("/")
+    values = physical(fitted.point, problem.mass, problem.layout)
+    found = {name: float(values[problem.layout.names.index(name)]) for name in names}
+    size = found[names[1]] if len(names) > 1 else 1.0
+    return found | {names[0]: found[names[0]] + away * size}
+
+
+def rise(fitted: Fitted, parameter: Parameter, away: float) -> float:
+    """Return by how much the misfit rises at so far from the optimum, all else sought anew."""
+    problem = held_at(fitted.problem, end_of(fitted, parameter, away))
+    found = settle_pinned(problem, fitted.point, fitted.jumps, FEW)
+    return 2 * (cost_of(found) - cost_of(fitted))
