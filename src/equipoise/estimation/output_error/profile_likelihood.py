@@ -29,8 +29,8 @@ from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
 
 WIDE = 0.05  # natural sizes, chosen: within less the valley is a parabola
-APART = 2.0  # sd from the optimum
-LEAST = 0.5 * APART**2  # chosen: of an interval too narrow by the root of two
+SDS = 2.0  # sd from the optimum
+LEAST = 0.5 * SDS**2  # chosen: of an interval too narrow by the root of two
 FEW = 30  # evaluations, chosen: from an optimum near by
 PART = Reason(Why.PART_UNOBSERVABLE)
 
@@ -44,7 +44,7 @@ def profiled(estimate: Estimate, fitted: Fitted) -> Estimate:
             if is_wide(p, sizes) and (least := least_rise(fitted, p)) < LEAST}  # fmt: skip
     if not flat:
         return estimate
-    told = estimate.outcome.reasons
+    reasons = estimate.outcome.reasons
     return replace(
         estimate,
         parameters=without_intervals(estimate.parameters, flat),
@@ -52,7 +52,7 @@ def profiled(estimate: Estimate, fitted: Fitted) -> Estimate:
         unobservable=(*estimate.unobservable,
                       *(Reason(Unobservable.MISFIT_FLAT, (name,), {"rise": least})
                         for name, least in flat.items())),
-        outcome=Outcome(told if PART in told else (*told, PART)),
+        outcome=Outcome(reasons if PART in reasons else (*reasons, PART)),
     )  # fmt: skip
 
 
@@ -82,7 +82,7 @@ def is_wide(parameter: Parameter, sizes: Mapping[str, float]) -> bool:
 
 def least_rise(fitted: Fitted, parameter: Parameter) -> float:
     """Return by how much the misfit rises at that end of an interval where it rises less."""
-    return min(rise(fitted, parameter, side * APART * parameter.sd) for side in (-1.0, 1.0))
+    return min(rise(fitted, parameter, side * SDS * parameter.sd) for side in (-1.0, 1.0))
 
 
 def held_at(problem: Problem, values: Mapping[str, float]) -> Problem:
