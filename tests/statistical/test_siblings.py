@@ -83,7 +83,7 @@ def test_com_is_open_where_a_gyro_alone_does_not_show_the_tilt(seed) -> None:
 
 
 def test_a_ratio_is_open_where_the_misfit_hardly_rises_beside_it() -> None:
-    """The optimum was a nearly flat body, the truth a sphere: J_xx/J_zz 7.9 sd off, 0.33 +- 0.08."""
+    """The optimum was nearly flat, the truth a sphere: J_xx/J_zz 0.33 +- 0.08, 7.9 sd off."""
     record = corpus_record(294)
     *_, last = identify(record.recording, record.testbed, IdentifyOptions("trajectory"))
     found = last.estimate
