@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.mass_errors import mass_errors
-from equipoise.actuators.stops import response, stops_of, travels
+from equipoise.actuators.stops import is_logged_in_steps, response, stops_of, travels
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.recording import Samples
 from tests.support.builders import sliding_masses
@@ -61,6 +61,22 @@ def test_few_steps_have_an_error_each():
     t = np.arange(0.0, 30.0, 0.05)
     steps = 2e-3 * np.clip(np.floor((t - 5.0) / 0.2), 0, 5)
     assert len(stops_of(t, steps, replace(X, resolution=2e-3, speed=0.05))) == 5
+
+
+@pytest.mark.parametrize(
+    ("passed", "accuracy", "in_steps"),
+    [
+        ([0, 0, 1, 2, 3, 3], 6e-4, True),
+        ([0, 0, 3, 3, 3, 3], 6e-4, False),  # commanded, or measured too seldom to say
+        ([0, 0, 0.7, 2.2, 3, 3], 6e-4, False),  # on its way at any place
+        ([0, 0, 1, 2, 3, 3], 4e-4, False),  # its steps are where it stops
+        ([0, 1, 1, 1, 1, 1], 6e-4, False),  # one step
+    ],
+)
+def test_a_log_in_steps_passes_some_of_them(passed, accuracy, in_steps):
+    (mass, *_) = sliding_masses(accuracy, 2e-3)
+    t = 0.2 * np.arange(len(passed))
+    assert is_logged_in_steps(t, 2e-3 * np.array(passed), mass) is in_steps
 
 
 def test_standing_still_has_no_travel():

@@ -19,6 +19,8 @@ from equipoise.model.testbed import SlidingMass
 
 STILL = 0.05  # of the mass's speed, chosen: slower than this is standing still
 MANY = 30  # stops of one mass, chosen: a search carries the errors of so many
+ROUGH = 0.25  # of a step, chosen: an accuracy that rounding gives, q / sqrt(12), or worse
+ALIKE = 0.1  # of a step, chosen: rounding of logs
 STAND = 0.5  # s, chosen: between two steps of one travel, or less
 
 
@@ -56,6 +58,26 @@ def stand_of(mass: SlidingMass) -> float:
     One that travels as slowly as counts is logged at the same place for resolution / speed.
     """
     return max(STAND, mass.resolution / (STILL * mass.speed))
+
+
+def is_rounded(mass: SlidingMass) -> bool:
+    """Say whether a mass may well stand between the steps in which it is logged."""
+    return mass.resolution > 0 and mass.accuracy >= ROUGH * mass.resolution
+
+
+def is_logged_in_steps(t: Series1, d: Series1, mass: SlidingMass) -> bool:
+    """Say whether displacements are measured in steps: so a travel passes some of them.
+
+    One that was commanded is at its ends, or on its way at any place.
+    """
+    if not is_rounded(mass):
+        return False
+    steps = d / mass.resolution
+    whole = np.round(steps)
+    if np.any(np.abs(steps - whole) > ALIKE):
+        return False
+    ways = joined(t, travels(t, d, mass.speed), stand_of(mass))
+    return any(len(np.unique(whole[a : b + 1])) > 2 for a, b in ways)
 
 
 def response(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -> Floats:

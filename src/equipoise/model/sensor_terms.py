@@ -6,6 +6,7 @@ Each is one coefficient that a fit may seek beside the torques (``sensors.camera
 
 from collections.abc import Iterable
 
+GYRO_CLOCK = "gyro_clock"
 GROUPS: dict[str, tuple[str, ...]] = {
     "plumb": ("plumb_x", "plumb_y"),
     "heading2": tuple(f"heading2_{wave}_{axis}" for wave in ("cos", "sin") for axis in "xyz"),
@@ -13,7 +14,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "camera_delay": ("camera_delay",),
     "gyro_scale": ("gyro_xx", "gyro_yy", "gyro_zz"),
     "gyro_cross": ("gyro_xy", "gyro_xz", "gyro_yx", "gyro_yz", "gyro_zx", "gyro_zy"),
-    "gyro_clock": ("gyro_clock",),
+    GYRO_CLOCK: (GYRO_CLOCK,),
 }
 TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in group)
 UNITS: dict[str, str] = {

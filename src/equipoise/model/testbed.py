@@ -64,6 +64,7 @@ class SlidingMass:
     doubt: DriveDoubt | None = None  # not of a file: a calibration's own; None: as stated
     mass_sd: float = 0.0  # -, relative, one sd; 0: exact
     logged_late: bool = False  # not of a file: a survey's own; measurements are stamped late, too
+    lag: float = 0.0  # s, not of a file: a survey's own; how late its rows are timed already
 
 
 @dataclass(frozen=True, slots=True, eq=False)

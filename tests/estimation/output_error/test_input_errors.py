@@ -10,6 +10,7 @@ from equipoise.estimation.output_error.fit_estimate import (
     conclude,
     end_rows,
     prior_shifts,
+    reported_shifts,
     visibility_of,
 )
 from equipoise.estimation.output_error.input_errors import STEP, devices_varied, input_shifts
@@ -91,6 +92,24 @@ def test_a_fast_clock_scales_time_by_hand():
     moved, *_ = shifts(replace(bed, attitude=replace(bed.attitude, clock_sd=1e-3)))
     np.testing.assert_allclose(moved["clock"][:3], 2e-3, rtol=0.05)
     np.testing.assert_allclose(moved["clock"][[6, 8]], 0.0, atol=1e-4)
+
+
+def test_masses_that_are_logged_in_steps_leave_com_at_home_open_by_hand():
+    """One that stands aside by its accuracy has moved com so, but not where masses stand now."""
+    masses = tuple(replace(m, resolution=2e-3, accuracy=6e-4) for m in platform().masses)
+    bed = replace(platform(), masses=masses)
+    steps = np.clip(np.arange(121) - 40, 0, 5)  # of 2 mm, one a second
+    track = Samples(np.arange(121.0), np.tile(-2e-3 * steps[:, None], 3))
+    found = fit(noisy(recording(120.0, track), 0), bed, Params())
+    moved = {s.name: s.shift[R] for s in input_shifts(found)}
+    assert list(moved) == [f"position of mass {mass.name}" for mass in masses]
+    for mass in masses:
+        shift = moved[f"position of mass {mass.name}"]
+        by_hand = -mass.mass * mass.accuracy / bed.body.mass * mass.axis
+        np.testing.assert_allclose(shift, by_hand, atol=0.02 * np.linalg.norm(by_hand))
+    rows = np.vstack([np.zeros((1, found.problem.layout.size)), end_rows(found, None)[1]])
+    _, at_end = reported_shifts(found, rows, None)
+    np.testing.assert_allclose(at_end[:, -3:], 0.0, atol=0.02 * np.linalg.norm(by_hand))
 
 
 def test_stronger_gravity_is_larger_inertia():

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.stops import ALIKE, is_rounded
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
@@ -22,8 +23,6 @@ from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import SlidingMass, Testbed
 
 BACK = 1.0  # s, chosen: half a turn of a platform that spins, and trembles, at 180 deg/s
-ALIKE = 0.1  # of a step, chosen: rounding of logs
-OPEN = 0.25  # of a step, chosen: an accuracy that leaves it open
 
 
 class Flicker(NamedTuple):
@@ -35,7 +34,7 @@ class Flicker(NamedTuple):
 
 def flicker_of(t: Series1, d: Series1, mass: SlidingMass) -> Flicker:
     """Return the positions (m) of one mass without flicker, and how often there was one."""
-    if mass.resolution == 0 or mass.accuracy < OPEN * mass.resolution:
+    if not is_rounded(mass):
         return Flicker(d, 0)
     tolerance, count, still = ALIKE * mass.resolution, 0, d.copy()
     changes = np.flatnonzero(np.abs(np.diff(d)) > tolerance)

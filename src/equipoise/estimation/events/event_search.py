@@ -16,6 +16,7 @@ from equipoise.estimation.events.record_model import (
     refitted,
     slowest,
 )
+from equipoise.estimation.output_error.problem import track_of
 from equipoise.estimation.output_error.solution import smooth_at
 from equipoise.estimation.search_budget import Stage
 from equipoise.maths.whiteness import spectral_peak
@@ -43,7 +44,7 @@ def of_either_kind(model: RecordModel, k: int) -> RecordModel:
 
 def spans_of_travels(model: RecordModel) -> list[tuple[float, float]]:
     """Return from when to when masses travelled far, s, each by a cut's spacing longer."""
-    track = model.recording.masses
+    track = track_of(model.recording, model.testbed)
     if track is None or len(track) < 2:
         return []
     columns = zip(track.values.T, model.testbed.masses, strict=True)

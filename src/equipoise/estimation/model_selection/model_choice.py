@@ -10,11 +10,11 @@ the present optimum and the group's coefficients having a plausible size each (W
 needs a lead (``SURE``; Kass and Raftery 1995 call 6 strong). An error of a sensor needs none: where
 it is as likely there as not, leaving it out moves com by several sd.
 
-A log of the masses that was stamped late is such an error, too: what explains a jump at the time of
-a recorded move first is that move.
+A log of the masses that was stamped late is such an error, too, and comes first where it has that
+lead: what explains a jump at the time of a recorded move first is that move.
 
 A gyro's clock that is fast beside the camera's turns what nutates away from the rows, the more
-the longer the record: it is a term, too; the rows are timed anew by what was found (``retimed``).
+the longer the record: it is a term, too. Rows are timed anew by what was found (``row_timing``).
 
 An unknown event may resemble a term, and a term events. So a term that promises as much as an
 event is taken before it (``is_lawful``), and every term is put to the test again when all else is
@@ -39,6 +39,7 @@ from equipoise.estimation.events.record_model import (
     refitted,
 )
 from equipoise.estimation.model_selection.cross_validation import posed_in, predicts_better
+from equipoise.estimation.model_selection.row_timing import retimed, with_clock
 from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, with_free_vertical
 from equipoise.estimation.output_error.problem import changes
 from equipoise.estimation.output_error.solution import evaluate
@@ -51,7 +52,7 @@ from equipoise.model.recording import warms
 
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
-DELAY, CLOCK = sensor_terms.GROUPS["camera_delay"], sensor_terms.GROUPS["gyro_clock"]
+DELAY, CLOCK = sensor_terms.GROUPS["camera_delay"], sensor_terms.GROUPS[sensor_terms.GYRO_CLOCK]
 THERMAL = torque_terms.GROUPS["thermal"]
 LATE_LOG = (LAG,)  # of the masses: an error of theirs, not a term
 SURE = 6.0  # 2 ln ratio
@@ -135,28 +136,6 @@ def without_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:
     return with_clock(less, 0.0) if group == CLOCK else less
 
 
-def with_clock(model: RecordModel, fast: float) -> RecordModel:
-    """Return the model with the gyro's rows timed by a clock that is so fast, not fitted yet."""
-    assert model.testbed.gyro is not None
-    gyro = replace(model.testbed.gyro, clock=fast)
-    return replace(model, testbed=replace(model.testbed, gyro=gyro))
-
-
-def retimed(model: RecordModel) -> RecordModel:
-    """Return the model with the gyro's rows where the clock that was found puts them, fitted again.
-
-    A row is read within its step of integration; a clock that is off takes it many steps away.
-    """
-    gyro, point = model.testbed.gyro, model.fitted.point
-    if not set(CLOCK) <= set(model.params.sensor) or gyro is None:
-        return model
-    at = sensor_terms.TERMS.index(CLOCK[0])
-    sensor = np.where(np.arange(len(point.sensor)) == at, 0.0, point.sensor)
-    fitted = replace(model.fitted, point=replace(point, sensor=sensor))
-    timed = with_clock(replace(model, fitted=fitted), gyro.clock + float(point.sensor[at]))
-    return refitted(timed)
-
-
 def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
     """Return how large the coefficients of a group may well be, one sd."""
     if is_of_sensors(group):
@@ -193,10 +172,12 @@ def lead(group: tuple[str, ...]) -> float:
 
 
 def best_group(model: RecordModel, refused: Refused) -> tuple[tuple[str, ...], float]:
-    """Return the group that promises most, and by how much beyond its lead."""
+    """Return the group that promises most, a late log first, and by how much beyond its lead."""
     open_to = [group for group in candidates(model) if group not in refused]
     found = [surplus(model, group) - lead(group) for group in open_to]
     most = int(np.argmax(found)) if found else 0
+    if LATE_LOG in open_to and found[open_to.index(LATE_LOG)] > SURE:
+        most = open_to.index(LATE_LOG)
     return (open_to[most], found[most]) if found else ((), -np.inf)
 
 

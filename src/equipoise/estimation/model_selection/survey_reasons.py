@@ -23,7 +23,7 @@ OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, unre
 IMPLAUSIBLE = 4.0  # sd of real sensors' errors, chosen
 LEANS = 4.0  # sd, chosen: a smaller lean is corrected unreported
 DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which gravity's shows too little
-CLOCK = sensor_terms.GROUPS["gyro_clock"]
+CLOCK = sensor_terms.GROUPS[sensor_terms.GYRO_CLOCK]
 
 
 def noise_reasons(model: RecordModel) -> list[Reason]:

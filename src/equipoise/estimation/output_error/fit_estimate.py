@@ -17,6 +17,7 @@ from equipoise.estimation.output_error.input_errors import (
     sought_weights,
 )
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
+from equipoise.estimation.output_error.problem import counted_by_timing
 from equipoise.estimation.output_error.servo_sag_covariance import by_sag
 from equipoise.estimation.output_error.solution import Fitted, freedom, smooth_at
 from equipoise.estimation.parameters.fit_parameters import (
@@ -44,7 +45,6 @@ from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
 from equipoise.model.torque_terms import GROUPS
 
-CLOCK = "gyro_clock"
 DRIFTS, THERMALS = GROUPS["drift"], GROUPS["thermal"]
 SURE = 4.0  # sd of a statistic before it counts as more than chance
 MOSTLY = 0.5  # of a variance, chosen: an input that gives more limits it
@@ -153,8 +153,7 @@ def parameters_of(
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
     values[TURN] = logarithm(fitted.point.q0)
-    if problem.testbed.gyro is not None and CLOCK in layout.names:
-        values[layout.names.index(CLOCK)] += problem.testbed.gyro.clock
+    values += counted_by_timing(layout, problem.testbed)
     order = selection(layout)
     rows, labels = np.eye(layout.size)[order], [(layout.names[k], layout.units[k]) for k in order]
     reported = values[order]

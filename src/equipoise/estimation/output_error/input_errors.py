@@ -14,6 +14,9 @@ the input together (the centre of mass at the end, masses where they stand) take
 Masses that travel on rails are sought instead, each with its sd as prior (``drive_errors``): three
 of them contradict each other. One that stands still off home is carried.
 
+A mass that is measured in steps stands between these, at home, too: all its rows are off by as much
+as it stops inaccurately. It may sway there, by gravity or spin, and no row says so.
+
 Each device turns its own part h of the known momentum, or torque:
 
     gain      dh = s h              mounting      dh = s e_i x h,   i = x, y, z
@@ -32,11 +35,13 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.drive_errors import drive_names
+from equipoise.actuators.stops import is_logged_in_steps
 from equipoise.actuators.stored_momentum import known_torque, stored_momentum
 from equipoise.estimation.output_error.problem import Problem, reposed
 from equipoise.estimation.output_error.solution import Fitted, evaluate
 from equipoise.estimation.parameters.fit_parameters import physical
 from equipoise.maths.linalg import inverse_where
+from equipoise.model import sensor_terms
 from equipoise.model.arrays import Floats, Matrix3
 from equipoise.model.devices import Device
 from equipoise.model.recording import Recording, Samples
@@ -97,8 +102,8 @@ def sought_weights(problem: Problem) -> dict[str, int]:
     names = [(weight_of(mass), drive_names(mass.name).gain) for mass in problem.testbed.masses]
     errors, first = problem.layout.errors, problem.layout.mass_errors.start
     found = {name: first + errors.index(gain) for name, gain in names if gain in errors}
-    if "gyro_clock" in problem.layout.sensor:
-        found[GYRO_CLOCK] = problem.layout.names.index("gyro_clock")
+    if sensor_terms.GYRO_CLOCK in problem.layout.sensor:
+        found[GYRO_CLOCK] = problem.layout.names.index(sensor_terms.GYRO_CLOCK)
     return found
 
 
@@ -120,6 +125,18 @@ def platform_varied(recording: Recording, testbed: Testbed, part: float) -> Iter
         sd = testbed.torque_sd
         more = scaled(recording.torque, part * sd)
         yield Varied("torque", sd, replace(recording, torque=more), testbed)
+
+
+def places_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
+    """Yield where masses stand that are logged in steps, home among them: between these."""
+    rows = recording.masses
+    if rows is None:
+        return
+    for i, mass in enumerate(testbed.masses):
+        if is_logged_in_steps(rows.t, rows.values[:, i], mass):
+            aside = rows.values + part * mass.accuracy * np.eye(len(testbed.masses))[i]
+            other = replace(recording, masses=Samples(rows.t, aside))
+            yield Varied(f"position of mass {mass.name}", mass.accuracy, other, testbed)
 
 
 def clocks_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
@@ -181,7 +198,7 @@ def devices_varied(recording: Recording, testbed: Testbed, part: float) -> Itera
 def variations(problem: Problem, part: float) -> Iterator[Varied]:
     """Yield every input that has an sd and is not sought, off by a part of that."""
     recording, testbed, sought = problem.recording, problem.testbed, sought_weights(problem)
-    for inputs in (platform_varied, clocks_varied, devices_varied):
+    for inputs in (platform_varied, places_varied, clocks_varied, devices_varied):
         for varied in inputs(recording, testbed, part):
             if varied.sd > 0 and varied.name not in sought:
                 yield varied

@@ -13,7 +13,7 @@ from equipoise.dynamics.regressor import N_TORQUES, THERMAL
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import TURN_PER_STEP, timeline
 from equipoise.estimation.motion.sampled_motion import sampled_motion
-from equipoise.estimation.output_error.problem import errors_of, forward_of
+from equipoise.estimation.output_error.problem import errors_of, forward_of, track_of
 from equipoise.estimation.output_error.trajectory import fastest_rate
 from equipoise.maths.attitude import exponential
 from equipoise.model import sensor_terms
@@ -46,7 +46,7 @@ def run(
     t = measured_at(rows.t, sensor)
     errors, rails = errors_of(recording, testbed), rails_of(testbed.masses)
     line = timeline(
-        t, np.zeros(0), on_rails(recording.masses, len(rails)), len(rails),
+        t, np.zeros(0), on_rails(track_of(recording, testbed), len(rails)), len(rails),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
         recording.momentum, recording.torque, errors.response, errors.owner,
         temperature=recording.temperature if np.any(torque[THERMAL:]) else None,
@@ -70,8 +70,12 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
     q0 = exponential(estimate.values(ATTITUDE))
     found = {p.name: p.value for p in estimate.parameters}
-    if any(name.startswith(LAG) for name in found):
+    lags = [name for name in found if name.startswith(LAG)]
+    if lags:
         testbed = replace(testbed, masses=logged_late(testbed.masses))
+    if len(lags) == 1:
+        masses = tuple(replace(mass, lag=found[lags[0]]) for mass in testbed.masses)
+        testbed, found = replace(testbed, masses=masses), found | {lags[0]: 0.0}
     motion = run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
     shown = np.empty_like(motion.q)
     sensor = np.array([found.get(term, 0.0) for term in sensor_terms.TERMS])

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.actuators.drive_errors import on_rails, rails_of
+from equipoise.actuators.lags import LAG
 from equipoise.actuators.mass_errors import MassErrors, mass_errors
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.dynamics import sensitivities
@@ -31,6 +32,7 @@ from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats, Series1, Vector3
 from equipoise.model.recording import Recording, Samples
+from equipoise.model.sensor_terms import GYRO_CLOCK
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS, typical
 from equipoise.sensors.timing import measured_at, spread_of
@@ -107,8 +109,7 @@ def prior_of(
         sd[JP] = max(testbed.inertia_sd, KNOWN) * element_sizes(testbed.body.inertia_P)
         sd[R] = np.maximum(testbed.com_sd, KNOWN_COM)
     sd[layout.mass_errors] = errors.sd
-    if "gyro_clock" in names and testbed.gyro is not None:
-        mean[names.index("gyro_clock")] = -testbed.gyro.clock
+    mean -= counted_by_timing(layout, testbed)
     sd[layout.sensors] = sensor_sizes(layout.sensor, testbed)
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
         sd[layout.gyro_bias] = testbed.gyro.bias_sd
@@ -174,6 +175,29 @@ def forward_of(up: Vector3) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
+def counted_by_timing(layout: Layout, testbed: Testbed) -> Floats:
+    """Return how much of each unknown the times of rows count already: lags, the gyro's clock."""
+    counted = np.zeros(layout.size)
+    for k, name in enumerate(layout.names):
+        if name == GYRO_CLOCK and testbed.gyro is not None:
+            counted[k] = testbed.gyro.clock
+        elif name.startswith(LAG):
+            counted[k] = testbed.masses[0].lag
+    return counted
+
+
+@lru_cache(maxsize=4)  # by identity, as ``mass_errors``
+def delayed(track: Samples, lag: float) -> Samples:
+    """Return a track that is later by ``lag`` (s)."""
+    return Samples(track.t + lag, track.values)
+
+
+def track_of(recording: Recording, testbed: Testbed) -> Samples | None:
+    """Return where the masses were, as late as they were found to be."""
+    track, lag = recording.masses, testbed.masses[0].lag if testbed.masses else 0.0
+    return delayed(track, lag) if track is not None and lag else track
+
+
 def on_the_cameras_clock(t: Series1, testbed: Testbed, start: float) -> Series1:
     """Return times (s) stamped by the gyro's clock, which is as fast as was found since a start."""
     fast = testbed.gyro.clock if testbed.gyro else 0.0
@@ -197,7 +221,7 @@ def pose(
     line = timeline(
         measured_at(attitude.t, testbed.attitude),
         on_the_cameras_clock(measured_at(rate.t, testbed.gyro), testbed, recording.span[0]),
-        on_rails(recording.masses, len(rails)),
+        on_rails(track_of(recording, testbed), len(rails)),
         len(rails),
         longest,
         recording.momentum,
@@ -255,4 +279,4 @@ def changes(recording: Recording, masses_count: bool = True) -> bool:
 
 def errors_of(recording: Recording, testbed: Testbed) -> MassErrors:
     """Return the errors of displacement that this recording can have."""
-    return mass_errors(recording.masses, testbed.masses, SHOWN * testbed.body.mass)
+    return mass_errors(track_of(recording, testbed), testbed.masses, SHOWN * testbed.body.mass)

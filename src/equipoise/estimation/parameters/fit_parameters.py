@@ -161,7 +161,7 @@ def sensor_sizes(terms: tuple[str, ...], testbed: Testbed) -> Floats:
     plumb = camera.plumb_sd if camera and camera.plumb_sd else PLUMB_SD
     clock = gyro.clock_sd if gyro and gyro.clock_sd else CLOCK_SD
     by_group = {"plumb": plumb, "heading2": 1e-3, "heading3": 1e-3, "camera": 0.03, "gyro": 0.02}
-    sizes = by_group | {"gyro_clock": clock}
+    sizes = by_group | {sensor_terms.GYRO_CLOCK: clock}
     return np.array([sizes.get(term, sizes[term.split("_")[0]]) for term in terms])
 
 
