@@ -33,7 +33,7 @@ def test_a_step_aside_and_back_within_a_second_is_none(logged, stands, count) ->
     t = 0.2 * np.arange(len(logged))
     found = flicker_of(t, STEP * np.array(logged), ROUNDED)
     assert found.positions == pytest.approx(STEP * np.array(stands), abs=1e-12)
-    assert found.count == count
+    assert found.times == count
 
 
 @pytest.mark.parametrize("mass", [EXACT, replace(ROUNDED, resolution=0.0)])
@@ -41,7 +41,7 @@ def test_a_mass_that_stops_more_finely_than_its_steps_did_move(mass) -> None:
     logged = STEP * np.array([0.0, 1.0, 0.0, 1.0, 0.0])
     found = flicker_of(0.2 * np.arange(5), logged, mass)
     assert found.positions == pytest.approx(logged)
-    assert found.count == 0
+    assert found.times == 0
 
 
 def test_columns_are_found_by_name_and_the_finding_names_the_mass() -> None:

@@ -29,7 +29,7 @@ class Flicker(NamedTuple):
     """How one mass flickers."""
 
     positions: Series1  # m, without it
-    count: int
+    times: int
 
 
 def flicker_of(t: Series1, d: Series1, mass: SlidingMass) -> Flicker:
@@ -61,7 +61,7 @@ def flickers(recording: Recording, testbed: Testbed) -> dict[str, Flicker]:
         for name, column in zip(names, rows.values.T, strict=False)
         if name in masses
     }
-    return {name: flicker for name, flicker in found.items() if flicker.count}
+    return {name: flicker for name, flicker in found.items() if flicker.times}
 
 
 def without_flicker(recording: Recording, testbed: Testbed) -> Samples | None:
@@ -80,6 +80,6 @@ def flicker_findings(recording: Recording, testbed: Testbed | None) -> list[Find
     """Return one finding for each mass that flickers."""
     found = flickers(recording, testbed) if testbed is not None else {}
     return [
-        Finding("mended", one_reason(Why.MASS_FLICKERS, name, count=flicker.count))
+        Finding("mended", one_reason(Why.MASS_FLICKERS, name, count=flicker.times))
         for name, flicker in found.items()
     ]
