@@ -27,6 +27,7 @@ class Stage(StrEnum):
     MODELS = "comparing models"
     DRIFT = "weighing the drift"
     RUNS = "fitting the runs together"
+    INTERVALS = "trying the intervals"
 
 
 Spent = Callable[[], bool]

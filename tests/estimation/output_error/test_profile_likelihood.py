@@ -16,6 +16,7 @@ from equipoise.estimation.output_error.profile_likelihood import (
 )
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.search_budget import Budget, Stage
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.model.estimate import BODY, Estimate
 from equipoise.model.outcome import OutcomeCode
@@ -68,3 +69,17 @@ def test_an_interval_that_is_too_narrow_is_open_and_the_outcome_says_so() -> Non
     assert 0.0 < reason.numbers["rise"] < LEAST
     others = (narrow.parameters[i] == p for i, p in enumerate(parameters) if i != k)
     assert all(others)
+
+
+def test_intervals_that_the_budget_leaves_untried_are_unfinished() -> None:
+    found, estimate = concluded(20.0)
+    spent = Budget(lambda: lambda: True)
+    assert profiled(estimate, found, spent) is estimate
+    assert spent.unfinished == (Stage.INTERVALS,)
+
+
+def test_an_estimate_without_wide_intervals_asks_for_no_time() -> None:
+    found, estimate = concluded(0.1)
+    spent = Budget(lambda: lambda: True)
+    assert profiled(estimate, found, spent) is estimate
+    assert spent.unfinished == ()

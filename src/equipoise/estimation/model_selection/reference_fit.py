@@ -202,9 +202,10 @@ def with_sure_scale(model: RecordModel) -> RecordModel:
 def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Estimate:
     """Return the estimate that a model of a record comes to."""
     found = as_if_finished(model, recording, params)
-    if not model.unfinished:
+    unfinished = params.budget.unfinished or model.unfinished
+    if not unfinished:
         return found
-    return cut_short(found, model.unfinished, found.outcome.usable and is_explained(model, found))
+    return cut_short(found, unfinished, found.outcome.usable and is_explained(model, found))
 
 
 def is_explained(model: RecordModel, found: Estimate) -> bool:
@@ -221,7 +222,7 @@ def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> 
     """Return the same by what the search found, finished or not."""
     try:
         plain = conclude(model.fitted, METHOD, recording, model.coloured)
-        concluded = profiled(plain, model.fitted)
+        concluded = profiled(plain, model.fitted, params.budget)
     except np.linalg.LinAlgError:  # of a search that was cut short
         return Estimate(METHOD, UNSETTLED, (), np.zeros((0, 0)))
     if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):

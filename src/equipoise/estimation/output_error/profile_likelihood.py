@@ -22,6 +22,7 @@ from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted, cost_of
 from equipoise.estimation.parameters.fit_parameters import CORE, physical
 from equipoise.estimation.parameters.observability import natural_sizes
+from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.model.estimate import BODY, Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.data_reasons import Unobservable
@@ -35,13 +36,23 @@ FEW = 30  # evaluations, chosen: from an optimum near by
 PART = Reason(Why.PART_UNOBSERVABLE)
 
 
-def profiled(estimate: Estimate, fitted: Fitted) -> Estimate:
-    """Return the estimate without the intervals of inertia and com that the misfit belies."""
+def profiled(estimate: Estimate, fitted: Fitted, budget: Budget = UNLIMITED) -> Estimate:
+    """Return the estimate without the intervals of inertia and com that the misfit belies.
+
+    As far as the budget allows; the rest is ``unfinished`` in it.
+    """
     if not estimate.outcome.usable:
         return estimate
-    sizes = sizes_of(fitted)
-    flat = {p.name: least for p in (*estimate.parameters, *estimate.ratios)
-            if is_wide(p, sizes) and (least := least_rise(fitted, p)) < LEAST}  # fmt: skip
+    sizes, flat = sizes_of(fitted), dict[str, float]()
+    within = replace(fitted, problem=replace(fitted.problem, budget=budget))
+    for parameter in (*estimate.parameters, *estimate.ratios):
+        if not is_wide(parameter, sizes):
+            continue
+        if not budget.allows(Stage.INTERVALS):
+            break
+        least = least_rise(within, parameter)
+        if least < LEAST:
+            flat[parameter.name] = least
     if not flat:
         return estimate
     reasons = estimate.outcome.reasons
