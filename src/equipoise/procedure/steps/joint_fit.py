@@ -9,7 +9,7 @@ from equipoise.assessment.record_checks.mass_flicker import without_flicker
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error import trajectory
-from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.estimation.output_error.fit_estimate import SURE, conclude
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import with_errors_of
 from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
@@ -21,6 +21,8 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS, among
 
 DRIFT, THERMAL = GROUPS["drift"], GROUPS["thermal"]
+CONSIDERED = (*GROUPS["viscous"], *DRIFT, *THERMAL)  # there is some of these on every bench
+ANOTHER = (*GROUPS["constant"], *GROUPS["swirl"], *GROUPS["quadratic"])  # on some
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,6 +61,16 @@ class Knowledge:
         return np.zeros(0) if masses is None else masses.values[-1]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class FitSetup:
+    """A record to be fitted, and what may be in the model beside what is found."""
+
+    recording: Recording
+    testbed: Testbed
+    considered: tuple[str, ...]
+    allowed: Budget
+
+
 def as_if_stiff(testbed: Testbed) -> Testbed:
     """Return the testbed without elastic sag among what is estimated.
 
@@ -73,49 +85,70 @@ def learn(
     fresh: Recording,
     testbed: Testbed,
     allowed: Budget = UNLIMITED,
-    considered: tuple[str, ...] = (*DRIFT, *THERMAL),
+    considered: tuple[str, ...] = CONSIDERED,
 ) -> Knowledge:
     """Return the knowledge with a fresh record added; the testbed's values are the prior.
 
     Torques that are ``considered`` are in the model, as large as benches have them: what the record
-    does not show of them widens intervals. Once it supports them, they are found, and from then on
-    as open as those that the testbed declares. Warmth is among them where a temperature changed.
-    Cannot tell them from torques that are neither.
+    does not show of them widens intervals. Once it supports a group, that is found, and from then
+    on as open as those that the testbed declares. Warmth is among them where a temperature changed.
+    Before one is, or where more than noise is left, all others are considered beside it: a steady
+    torque turns a platform as if its damping were negative. Where they explain the record as well,
+    none is found, and all of them widen the intervals.
+    Cannot tell them from torques that are none of these.
     """
     testbed = as_if_stiff(testbed)
     fresh = replace(fresh, masses=without_flicker(fresh, testbed))
     recording = fresh if before is None else join(before.recording, fresh)
-    found = () if before is None else before.found
     if not warms(recording):
         considered = tuple(term for term in considered if term not in THERMAL)
-    params = params_of(testbed, found, considered, allowed)
-    knowledge = fitted_in(params, before, recording, testbed, found)
-    if not is_supported(knowledge.estimate, params.typical):
+    setup = FitSetup(recording, testbed, considered, allowed)
+    knowledge = fitted_in(setup, before, () if before is None else before.found)
+    if not considered:
         return knowledge
-    found = among((*found, *params.typical))
-    params = params_of(testbed, found, considered, allowed)
-    return fitted_in(params, knowledge, recording, testbed, found)
+    promises = bool(supported(knowledge, setup))
+    if not (promises or leaves_more(knowledge)):
+        return knowledge
+    every = replace(setup, considered=among((*considered, *ANOTHER)))
+    beside = fitted_in(every, knowledge, knowledge.found)
+    shown = supported(beside, every)
+    if shown:
+        return fitted_in(setup, knowledge, among((*knowledge.found, *shown)))
+    return beside if promises else knowledge
 
 
-def params_of(
-    testbed: Testbed, found: tuple[str, ...], considered: tuple[str, ...], allowed: Budget
-) -> trajectory.Params:
+def supported(knowledge: Knowledge, setup: FitSetup) -> tuple[str, ...]:
+    """Return the considered terms, neither declared nor found yet, that the record supports."""
+    unknown = {*setup.considered} - {*setup.testbed.disturbances, *knowledge.found}
+    groups = [group for group in GROUPS.values() if set(group) <= unknown]
+    shown = [group for group in groups if is_supported(knowledge.estimate, group)]
+    return tuple(term for group in shown for term in group)
+
+
+def leaves_more(knowledge: Knowledge) -> bool:
+    """Say whether the fit leaves more than the stated noise, for sure."""
+    left = knowledge.estimate.residual
+    assert left is not None
+    return bool(left.reduced_chi_square > 1 + SURE * np.sqrt(2 / left.degrees_of_freedom))
+
+
+def params_of(setup: FitSetup, found: tuple[str, ...]) -> trajectory.Params:
     """Return the options of a fit with torques that are declared, found, or else considered."""
-    open_terms = {*testbed.disturbances, *found}
-    typical = among({*considered} - open_terms)
-    terms = among({*open_terms, *considered})
-    return trajectory.Params(terms, use_prior=True, typical=typical, budget=allowed.renewed())
+    open_terms = {*setup.testbed.disturbances, *found}
+    typical = among({*setup.considered} - open_terms)
+    terms = among({*open_terms, *setup.considered})
+    budget = setup.allowed.renewed()
+    return trajectory.Params(terms, use_prior=True, typical=typical, budget=budget)
 
 
-def fitted_in(
-    params: trajectory.Params,
-    before: Knowledge | None,
-    recording: Recording,
-    testbed: Testbed,
-    found: tuple[str, ...],
-) -> Knowledge:
+def fitted_in(setup: FitSetup, before: Knowledge | None, found: tuple[str, ...]) -> Knowledge:
     """Return the knowledge from a whole record, from where the search stood ``before``."""
-    guess = None
+    recording, testbed, params, guess = (
+        setup.recording,
+        setup.testbed,
+        params_of(setup, found),
+        None,
+    )
     if before is not None:
         layout = trajectory.layout_of(recording, testbed, params)
         guess = with_errors_of(before.fitted.point, before.fitted.problem.layout, layout)
