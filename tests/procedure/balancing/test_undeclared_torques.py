@@ -14,8 +14,8 @@ from equipoise.simulation.bench import SimulatedBench
 SPUTNIX = read_preset("sputnix")
 MOMENTS = np.diag(SPUTNIX.body.inertia_P)  # kg m2
 TORQUES = {
-    "viscous": MOMENTS / 200.0,  # rates fall by a factor e in 200 s
-    "swirl": np.array([2e-5]),  # N m, of the air: a turn of 10 deg about the vertical in two minutes
+    "viscous": MOMENTS / 200.0,  # N m s: rates fall by a factor e in 200 s
+    "swirl": np.array([2e-5]),  # N m, of the air: a turn of 10 deg in two minutes
 }
 
 

@@ -67,11 +67,11 @@ def by_lag(model: RecordModel) -> RecordModel:
 
 
 def started_anew(model: RecordModel) -> RecordModel:
-    """Return the model from the linear methods again, if better: it strayed while masses were off.
+    """Return the model from the linear methods again, where it strayed while masses were off.
 
-    Events, which came from where it strayed to, are kept.
+    One with events, which came from where it strayed to, is left as it is.
     """
-    if model.events:
+    if model.events or model.fitted.converged:
         return model
     found = fit(model.recording, model.testbed, model.params)
     return replace(model, fitted=min(model.fitted, found, key=cost_of))
