@@ -141,6 +141,10 @@ CONTROL = _of(
 
 ASSESSMENT = _of(
     "assessment",
+    ("record_checks/mass_flicker.py", "aside & returned & (t[back]", "aside & (t[back]",
+     "assessment/record_checks/test_mass_flicker.py"),
+    ("record_checks/mass_flicker.py", "(t[back] - t[there] < BACK)", "True",
+     "assessment/record_checks/test_mass_flicker.py"),
     ("metrics/gravity_torque.py", "return -to_matrix(q)[:, 2, :]", "return to_matrix(q)[:, 2, :]",
      "assessment/metrics/test_gravity_torque.py"),
     ("metrics/motion_energy.py", "0.5 * np.sum(w * momentum, axis=1)",
@@ -167,6 +171,21 @@ ASSESSMENT = _of(
 
 ESTIMATION = _of(
     "estimation",
+    ("model_selection/row_timing.py", "found = model.testbed.masses[0].lag + float(",
+     "found = model.testbed.masses[0].lag - float(",
+     "estimation/model_selection/test_row_timing.py"),
+    ("output_error/problem.py", "    mean -= counted_by_timing(layout, testbed)",
+     "    mean += counted_by_timing(layout, testbed)",
+     "estimation/model_selection/test_row_timing.py"),
+    ("output_error/problem.py", "return Samples(track.t + lag, track.values)",
+     "return Samples(track.t - lag, track.values)",
+     "estimation/model_selection/test_row_timing.py"),
+    ("output_error/profile_likelihood.py", "return min(rise(fitted", "return max(rise(fitted",
+     "estimation/output_error/test_profile_likelihood.py"),
+    ("output_error/profile_likelihood.py", "return 2 * (cost_of(found)", "return (cost_of(found)",
+     "estimation/output_error/test_profile_likelihood.py"),
+    ("output_error/input_errors.py", "rows.values + part * mass.accuracy",
+     "rows.values + 2 * part * mass.accuracy", "estimation/output_error/test_input_errors.py"),
     ("search_budget.py", "if not self._spent():", "if True:",
      "estimation/test_search_budget.py::test_a_descent_ends_between_parts_once_its_budget_is_spent"),
     ("output_error/solution.py", "turn, normal, toward, damping, growth)",
@@ -241,6 +260,10 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
+    ("steps/joint_fit.py", 'CONSIDERED = (*GROUPS["viscous"], *DRIFT', "CONSIDERED = (*DRIFT",
+     "procedure/balancing/test_undeclared_torques.py"),
+    ("steps/joint_fit.py", "among((*considered, *ANOTHER))", "among(considered)",
+     "procedure/balancing/test_undeclared_torques.py"),
     ("balancing/hold_verdict.py", "each.low if failing else each.high", "each.low",
      "procedure/balancing/test_hold_verdict.py"),
     ("identification/cross_checks.py", "if found.off > MOST_OFF else Why.AGREES",
