@@ -78,7 +78,7 @@ def test_intervals_that_the_budget_leaves_untried_are_unfinished() -> None:
     assert spent.unfinished == (Stage.INTERVALS,)
 
 
-def test_an_estimate_without_wide_intervals_asks_for_no_time() -> None:
+def test_narrow_intervals_take_no_time() -> None:
     found, estimate = concluded(0.1)
     spent = Budget(lambda: lambda: True)
     assert profiled(estimate, found, spent) is estimate
