@@ -38,6 +38,7 @@ from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.free_vertical import with_free_vertical
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.problem import Prior
+from equipoise.estimation.output_error.profile_likelihood import profiled
 from equipoise.estimation.output_error.segment_jumps import Jump, walk
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, fit
@@ -187,7 +188,8 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
     recording = arranged(recording, testbed.mass_names)
     found = drifting(recording, testbed, params)
     try:
-        concluded = conclude(found.fitted, METHOD, recording)
+        plain = conclude(found.fitted, METHOD, recording)
+        concluded = profiled(plain, found.fitted, params.budget)
         concluded = cut_short(concluded, params.budget.unfinished)
         if not found.fitted.converged:
             return concluded
