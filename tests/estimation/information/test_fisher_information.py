@@ -333,3 +333,13 @@ def test_masses_are_displaced_to_where_the_fit_found_them():
 def test_too_few_rows_are_refused():
     with pytest.raises(InputError, match="3 rows"):
         information_by(window(clean(), 0.0, 0.5), platform(), Params())
+
+
+def test_a_motion_without_end_is_refused():
+    """A fit that ended at such a rate that its motion overflows: no eigenvalues of nothing."""
+    record, testbed = noisy(recording(20.0), 0), platform()
+    motion = followed(record, testbed, Params())
+    point = replace(motion.fitted.point, w0=np.full(3, 1e9))
+    lost = replace(motion, fitted=replace(motion.fitted, point=point))
+    with pytest.raises(InputError, match="a motion that the fit did not find"):
+        fisher_information.information_along(lost)

@@ -30,6 +30,7 @@ from equipoise.estimation.parameters.fit_parameters import CORE, physical
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.maths.attitude import tilt, to_matrix
 from equipoise.model.arrays import Floats, Series3, Square
+from equipoise.model.errors import InputError
 from equipoise.model.observability import Observability
 from equipoise.model.reasons.reason import distinct
 from equipoise.model.recording import Recording
@@ -44,7 +45,10 @@ def information_by(recording: Recording, testbed: Testbed, params: Params) -> Ob
 
 
 def information_along(motion: Followed) -> Observability:
-    """Return what a motion that was followed can show, bounds in SI units."""
+    """Return what a motion that was followed can show, bounds in SI units.
+
+    InputError for a fit that ended at a body whose motion has no end: a needle, say.
+    """
     fitted = motion.fitted
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
@@ -53,6 +57,9 @@ def information_along(motion: Followed) -> Observability:
     view = bound.view
     unobservable = distinct(view.unobservable)
     line, path = halfway(fitted)
+    if not np.isfinite(path.q).all():
+        where = problem.recording.source or "recording"
+        raise InputError(where, "a motion that the fit did not find", "a shorter part of it")
     upward = tilt(path.q, motion.testbed.up)
     return Observability(
         bound.names,
