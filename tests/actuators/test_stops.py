@@ -66,10 +66,10 @@ def test_few_steps_have_an_error_each():
 @pytest.mark.parametrize(
     ("passed", "accuracy", "in_steps"),
     [
-        ([0, 0, 1, 2, 3, 3], 6e-4, True),
-        ([0, 0, 3, 3, 3, 3], 6e-4, False),  # commanded, or measured too seldom to say
-        ([0, 0, 0.7, 2.2, 3, 3], 6e-4, False),  # on its way at any place
-        ([0, 0, 1, 2, 3, 3], 4e-4, False),  # its steps are where it stops
+        ([0, 1, 2, 3, 4, 5], 6e-4, True),
+        ([0, 1, 2, 5, 5, 5], 6e-4, False),  # commanded by way of two corners
+        ([0, 0.7, 2.2, 3, 4.4, 5], 6e-4, False),  # on its way at any place
+        ([0, 1, 2, 3, 4, 5], 4e-4, False),  # its steps are where it stops
         ([0, 1, 1, 1, 1, 1], 6e-4, False),  # one step
     ],
 )

@@ -21,6 +21,7 @@ STILL = 0.05  # of the mass's speed, chosen: slower than this is standing still
 MANY = 30  # stops of one mass, chosen: a search carries the errors of so many
 ROUGH = 0.25  # of a step, chosen: an accuracy that rounding gives, q / sqrt(12), or worse
 ALIKE = 0.1  # of a step, chosen: rounding of logs
+CORNERS = 4  # chosen: of a commanded travel, which waits for other masses
 STAND = 0.5  # s, chosen: between two steps of one travel, or less
 
 
@@ -68,7 +69,7 @@ def is_rounded(mass: SlidingMass) -> bool:
 def is_logged_in_steps(t: Series1, d: Series1, mass: SlidingMass) -> bool:
     """Say whether displacements are measured in steps: so a travel passes some of them.
 
-    One that was commanded is at its ends, or on its way at any place.
+    One that was commanded is at its ends, at a corner or two, or on its way at any place.
     """
     if not is_rounded(mass):
         return False
@@ -77,7 +78,7 @@ def is_logged_in_steps(t: Series1, d: Series1, mass: SlidingMass) -> bool:
     if np.any(np.abs(steps - whole) > ALIKE):
         return False
     ways = joined(t, travels(t, d, mass.speed), stand_of(mass))
-    return any(len(np.unique(whole[a : b + 1])) > 2 for a, b in ways)
+    return any(len(np.unique(whole[a : b + 1])) > CORNERS for a, b in ways)
 
 
 def response(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -> Floats:
