@@ -10,6 +10,7 @@ from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.torque_terms import expand
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.simulation.bench import SimulatedBench
+from tests.support import thorough
 
 SPUTNIX = read_preset("sputnix")
 MOMENTS = np.diag(SPUTNIX.body.inertia_P)  # kg m2
@@ -29,7 +30,7 @@ def balanced(group: str, seed: int):
 
 
 @pytest.mark.parametrize("group", TORQUES)
-@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("seed", thorough.some((0, 1), 1))
 def test_a_torque_that_nobody_declared_is_explained_and_balanced(group, seed) -> None:
     """With drift alone among what is considered, no such record explained itself.
 
