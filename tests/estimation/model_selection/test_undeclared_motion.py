@@ -15,6 +15,7 @@ from equipoise.model.testbed import AttitudeSensor, Gyro
 from equipoise.model.torque_terms import GROUPS
 from tests.oracle import cases
 from tests.oracle import mujoco_bench as oracle
+from tests.support import thorough
 
 CAMERA, GYRO = AttitudeSensor(5.0, np.radians(0.1)), Gyro(10.0, 1e-4, np.radians(0.5))
 DRIFT, THERMAL = 1e-6 / 60, 1e-6  # m/s, m/K
@@ -96,6 +97,7 @@ def test_a_lamps_warmth_is_found_by_the_recorded_temperature(spin):
     assert reason.parameters == ("thermal",)
 
 
+@thorough.whole
 def test_a_thermometer_that_errs_leaves_com_as_certain_as_stated():
     """By 0.05 K a reading, which moves com by 0.05 um: com within 4 sd, the term is there."""
     platform, _, record, testbed = moving(0, SPIN, lambda t: THERMAL * warmth(t))
