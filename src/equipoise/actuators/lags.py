@@ -108,3 +108,8 @@ def sags(commands: CommandColumns, masses: tuple[SlidingMass, ...]) -> Floats:
 def logged_late(masses: tuple[SlidingMass, ...]) -> tuple[SlidingMass, ...]:
     """Return masses whose measured positions may be stamped late, too."""
     return tuple(replace(mass, lag_sd=mass.lag_sd or STAMP_SD, logged_late=True) for mass in masses)
+
+
+def lagging(masses: tuple[SlidingMass, ...], lag: float) -> tuple[SlidingMass, ...]:
+    """Return masses whose rows are timed by a lag (s) that was found."""
+    return tuple(replace(mass, lag=lag) for mass in masses)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.lags import STAMP_SD
+from equipoise.actuators.lags import STAMP_SD, lagging
 from equipoise.estimation.model_selection.reference_fit import modelled
 from equipoise.estimation.model_selection.row_timing import by_lag, retimed
 from equipoise.estimation.output_error.predict import predict
@@ -45,8 +45,7 @@ def test_masses_are_placed_by_the_lag_and_what_is_left_is_small(late):
     assert model.testbed.masses[0].lag == pytest.approx(-LATE, abs=0.02)
     assert by_lag(model) is model
     assert retimed(model) is model
-    masses = tuple(replace(mass, lag=0.0) for mass in model.testbed.masses)
-    prompt = replace(model.testbed, masses=masses)
+    prompt = replace(model.testbed, masses=lagging(model.testbed.masses, 0.0))
     right = fit(replace(record, masses=AFTER), prompt, model.params)
     unlikely = (LATE / STAMP_SD) ** 2 / 2
     assert model.fitted.at.cost - right.at.cost == pytest.approx(unlikely, rel=0.1)

@@ -222,8 +222,7 @@ def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> 
     """Return the same by what the search found, finished or not."""
     try:
         plain = conclude(model.fitted, METHOD, recording, model.coloured)
-        # where the testbed's body is prior, that bounds what the record leaves open
-        concluded = plain if params.use_prior else profiled(plain, model.fitted, params.budget)
+        concluded = profiled(plain, model.fitted, params.budget)
     except np.linalg.LinAlgError:  # of a search that was cut short
         return Estimate(METHOD, UNSETTLED, (), np.zeros((0, 0)))
     if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):

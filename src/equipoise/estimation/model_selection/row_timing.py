@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.actuators.lags import LAG
+from equipoise.actuators.lags import LAG, lagging
 from equipoise.estimation.events.record_model import RecordModel, refitted
 from equipoise.estimation.output_error.solution import cost_of
 from equipoise.estimation.output_error.trajectory import fit
@@ -33,8 +33,8 @@ def with_clock(model: RecordModel, fast: float) -> RecordModel:
 
 def with_lag(model: RecordModel, lag: float) -> RecordModel:
     """Return the model with masses that follow their rows so late (s), not fitted yet."""
-    masses = tuple(replace(mass, lag=lag) for mass in model.testbed.masses)
-    return replace(model, testbed=replace(model.testbed, masses=masses))
+    testbed = replace(model.testbed, masses=lagging(model.testbed.masses, lag))
+    return replace(model, testbed=testbed)
 
 
 def by_clock(model: RecordModel) -> RecordModel:

@@ -75,10 +75,15 @@ def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
     )
 
 
+def leaves_more(residual: Residual) -> bool:
+    """Say whether a residual is larger than the stated noise, and not by chance."""
+    chance = np.sqrt(2 / residual.degrees_of_freedom)
+    return bool(residual.reduced_chi_square > 1 + SURE * chance)
+
+
 def widening(residual: Residual) -> float:
     """Return the factor on every sd for a residual larger or less white than noise."""
-    excess, chance = residual.reduced_chi_square, SURE / np.sqrt(residual.degrees_of_freedom)
-    factor = excess if excess > 1 + chance * np.sqrt(2) else 1.0
+    factor = residual.reduced_chi_square if leaves_more(residual) else 1.0
     return float(np.sqrt(factor * residual.spectral_peak))
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.actuators.drive_errors import on_rails, rails_of
-from equipoise.actuators.lags import LAG, logged_late
+from equipoise.actuators.lags import LAG, lagging, logged_late
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.dynamics.regressor import N_TORQUES, THERMAL
@@ -74,8 +74,8 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
     if lags:
         testbed = replace(testbed, masses=logged_late(testbed.masses))
     if len(lags) == 1:
-        masses = tuple(replace(mass, lag=found[lags[0]]) for mass in testbed.masses)
-        testbed, found = replace(testbed, masses=masses), found | {lags[0]: 0.0}
+        testbed = replace(testbed, masses=lagging(testbed.masses, found[lags[0]]))
+        found[lags[0]] = 0.0
     motion = run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
     shown = np.empty_like(motion.q)
     sensor = np.array([found.get(term, 0.0) for term in sensor_terms.TERMS])

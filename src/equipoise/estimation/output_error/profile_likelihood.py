@@ -9,6 +9,7 @@ ends of a wide interval are tried, with everything else sought anew. Where the m
 than half of what the interval says, the number is open. This is the likelihood interval of Venzon
 and Moolgavkar (1988, eq. 4), at two points.
 
+What the testbed's body bounds as prior is not tried: that is an interval whatever the record says.
 Cannot see what no search from the optimum reaches; an end that no body can have counts as a rise.
 """
 
@@ -68,9 +69,12 @@ def profiled(estimate: Estimate, fitted: Fitted, budget: Budget = UNLIMITED) -> 
 
 
 def sizes_of(fitted: Fitted) -> dict[str, float]:
-    """Return the natural size of each part of the inertia and of the centre of mass."""
+    """Return the natural sizes of what no prior bounds, of inertia and centre of mass."""
+    prior = fitted.problem.prior
     size = natural_sizes(fitted.point, fitted.problem.mass, fitted.problem.layout)
-    return dict(zip(BODY, size[CORE].tolist(), strict=True))
+    bounded = prior.weight > prior.anchor
+    columns = zip(BODY, size[CORE].tolist(), bounded[CORE], strict=True)
+    return {name: value for name, value, known in columns if not known}
 
 
 def without_intervals(

@@ -9,7 +9,7 @@ from equipoise.assessment.record_checks.mass_flicker import without_flicker
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error import trajectory
-from equipoise.estimation.output_error.fit_estimate import SURE, conclude
+from equipoise.estimation.output_error.fit_estimate import conclude, leaves_more
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import with_errors_of
 from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
@@ -106,8 +106,9 @@ def learn(
     knowledge = fitted_in(setup, before, () if before is None else before.found)
     if not considered:
         return knowledge
-    promises = bool(supported(knowledge, setup))
-    if not (promises or leaves_more(knowledge)):
+    promises, left = bool(supported(knowledge, setup)), knowledge.estimate.residual
+    assert left is not None
+    if not (promises or leaves_more(left)):
         return knowledge
     every = replace(setup, considered=among((*considered, *ANOTHER)))
     beside = fitted_in(every, knowledge, knowledge.found)
@@ -125,13 +126,6 @@ def supported(knowledge: Knowledge, setup: FitSetup) -> tuple[str, ...]:
     return tuple(term for group in shown for term in group)
 
 
-def leaves_more(knowledge: Knowledge) -> bool:
-    """Say whether the fit leaves more than the stated noise, for sure."""
-    left = knowledge.estimate.residual
-    assert left is not None
-    return bool(left.reduced_chi_square > 1 + SURE * np.sqrt(2 / left.degrees_of_freedom))
-
-
 def params_of(setup: FitSetup, found: tuple[str, ...]) -> trajectory.Params:
     """Return the options of a fit with torques that are declared, found, or else considered."""
     open_terms = {*setup.testbed.disturbances, *found}
@@ -143,12 +137,8 @@ def params_of(setup: FitSetup, found: tuple[str, ...]) -> trajectory.Params:
 
 def fitted_in(setup: FitSetup, before: Knowledge | None, found: tuple[str, ...]) -> Knowledge:
     """Return the knowledge from a whole record, from where the search stood ``before``."""
-    recording, testbed, params, guess = (
-        setup.recording,
-        setup.testbed,
-        params_of(setup, found),
-        None,
-    )
+    recording, testbed = setup.recording, setup.testbed
+    params, guess = params_of(setup, found), None
     if before is not None:
         layout = trajectory.layout_of(recording, testbed, params)
         guess = with_errors_of(before.fitted.point, before.fitted.problem.layout, layout)
