@@ -51,6 +51,21 @@ def test_what_is_ignored_stays_ignored(number):
         signal.signal(number, before)
 
 
+def test_a_signal_while_handlers_are_put_back_leaves_none_behind(monkeypatch):
+    """Ctrl-C works again already while SIGTERM is still held back."""
+    before = [signal.getsignal(number) for number in STOPPING]
+    set_handler = signal.signal
+
+    def interrupted_then(number, handler):
+        set_handler(number, handler)
+        if handler is signal.default_int_handler:
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt), whole_message():
+        monkeypatch.setattr(signal, "signal", interrupted_then)
+    assert [signal.getsignal(number) for number in STOPPING] == before
+
+
 def test_an_error_of_the_block_comes_out_and_the_handlers_are_back():
     before = [signal.getsignal(number) for number in STOPPING]
     with pytest.raises(ValueError, match="broken"), whole_message():

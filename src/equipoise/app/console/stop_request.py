@@ -14,7 +14,7 @@ from collections.abc import Generator, Iterable
 from contextlib import contextmanager
 from types import FrameType
 
-from equipoise.hardware.bench.stop_signals import HANG_UP, STOPPING
+from equipoise.hardware.bench.stop_signals import HANG_UP, STOPPING, put_back
 
 COMPILER = ("numba", "llvmlite")
 IMPORTING = ("_frozen_importlib", "importlib")
@@ -119,8 +119,7 @@ def stoppable(numbers: Iterable[int] = STOPPING) -> Generator[Requests]:
         yield requests
         requests.carry_out()
     finally:
-        for number, handler in ours.items():
-            signal.signal(number, handler)
+        put_back(ours)
 
 
 def leave_to_system() -> None:

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Generator
 from contextlib import contextmanager
 
-from equipoise.hardware.bench.stop_signals import STOPPING
+from equipoise.hardware.bench.stop_signals import STOPPING, put_back
 
 
 @contextmanager
@@ -28,7 +28,6 @@ def whole_message() -> Generator[None]:
             signal.signal(number, lambda number, _frame: requested.append(number))
         yield
     finally:
-        for number, handler in before.items():
-            signal.signal(number, signal.SIG_DFL if handler is None else handler)
+        put_back(before)
     if requested:
         signal.raise_signal(requested[0])

@@ -5,9 +5,10 @@ that is gone. Windows has no SIGHUP.
 """
 
 import signal
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
 NAMES = ("SIGINT", "SIGTERM", "SIGHUP")
 STOPPING = tuple(signal.Signals[name] for name in NAMES if hasattr(signal, name))
@@ -37,3 +38,17 @@ def handled(number: int | None, handler: Handler) -> Generator[None]:
         yield
     finally:
         signal.signal(number, before)
+
+
+def put_back(before: Mapping[int, Any]) -> None:
+    """Give each signal the handler that it had, the others too where one of these raises meanwhile.
+
+    The first of them may be called before the second is there; what it raises comes out in the end.
+    """
+    if not before:
+        return
+    (number, handler), *others = before.items()
+    try:
+        signal.signal(number, signal.SIG_DFL if handler is None else handler)
+    finally:
+        put_back(dict(others))
