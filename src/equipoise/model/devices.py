@@ -99,6 +99,14 @@ class MagneticField:
     noise: float | None = None  # T, one sd per axis of a magnetometer's row; None: there is none
 
 
+@dataclass(frozen=True, slots=True)
+class Lamp:
+    """What warms the platform while it is on, towards an end, as 1 - exp(-t / time_constant)."""
+
+    warms: float  # K, in the end
+    time_constant: float  # s
+
+
 Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
 
 

@@ -63,6 +63,7 @@ class Recording(Plotted):
     devices: Samples | None = None  # (n, k) what each reported: rad/s, rad, A m^2, N m
     field: Samples | None = None  # (n, 3) T, magnetic, body axes, as the magnetometer gave it
     temperature: Samples | None = None  # (n, 1) degC, of the air at the bench or of the platform
+    lamp: Samples | None = None  # (n, 1) of its full power, from each row to the next
     # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
     # when they differ by no more than rounding. A mean of frames is shorter than one. Not written.
     attitude_norm: Samples | None = None
@@ -84,14 +85,9 @@ class Recording(Plotted):
         return float(min(e[0] for e in edges)), float(max(e[1] for e in edges))
 
 
-def warms(recording: Recording) -> bool:
-    """Say whether a temperature was recorded that changes."""
-    rows = recording.temperature
-    return rows is not None and bool(np.any(rows.values != rows.values[:1]))
-
-
-CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field", "temperature")
-INPUTS = ("masses", "momentum", "torque", "devices")  # straight lines between their rows
+CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field", "temperature",
+            "lamp")  # fmt: skip
+INPUTS = ("masses", "momentum", "torque", "devices", "lamp")  # known between their rows
 
 
 def window(recording: Recording, start: float, end: float) -> Recording:

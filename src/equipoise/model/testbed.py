@@ -13,6 +13,7 @@ from equipoise.model.devices import (
     ControlMomentGyro,
     Device,
     JetPair,
+    Lamp,
     MagneticField,
     Magnetorquer,
     ReactionWheel,
@@ -173,6 +174,7 @@ class Testbed(Shown):
     magnetic_field: MagneticField | None = None
     weights: tuple[Weight, ...] = ()  # to be placed by hand
     grids: tuple[WeightGrid, ...] = ()  # where they can be placed
+    lamp: Lamp | None = None  # whose switch a recording may hold
     hardware: Hardware | None = None  # what is connected; None: nothing, it can be simulated
     mass_sd: float = 0.0  # -, of all that floats, relative, one sd; 0: exact
     gravity_sd: float = 0.0  # -, relative, one sd; 0: exact

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.dynamics.lamp_warmth import warms
 from equipoise.estimation.model_selection.reference_fit import estimate
 from equipoise.estimation.output_error.trajectory import Params
+from equipoise.model.devices import Lamp
 from equipoise.model.estimate import COM, END
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
-from equipoise.model.recording import Samples, warms
+from equipoise.model.recording import Samples, window
 from equipoise.model.testbed import AttitudeSensor, Gyro
 from equipoise.model.torque_terms import GROUPS
 from tests.oracle import cases
@@ -97,6 +99,42 @@ def test_a_lamps_warmth_is_found_by_the_recorded_temperature(spin):
     assert reason.parameters == ("thermal",)
 
 
+def lamp_at(stated: float, record, testbed):
+    """Return the record with the lamp's switch, and the testbed with what is stated of it (s)."""
+    switch = Samples(np.array([0.0, LAMP]), np.array([[0.0], [1.0]]))
+    return replace(record, lamp=switch), replace(testbed, lamp=Lamp(WARMER, stated))
+
+
+@pytest.mark.parametrize(
+    ("spin", "stated"), thorough.some([(SPIN, 150.0), (0.0, 20.0), (SPIN, 20.0), (0.0, 150.0)], 1)
+)
+def test_a_lamps_warmth_is_found_by_its_switch(spin, stated):
+    """However wrong its time constant is stated: found within a tenth; com as by a thermometer."""
+    platform, way, record, testbed = moving(0, spin, lambda t: THERMAL * warmth(t))
+    found = estimate(*lamp_at(stated, record, testbed), Params())
+    names = (*GROUPS["thermal"], *COM)
+    truth = np.concatenate([THERMAL * way, platform.com])
+    sd = np.sqrt(np.diag(found.covariance_of(names)))
+    assert np.abs((found.values(names) - truth) / sd).max() < 4.0
+    assert not found.events
+    (reason,) = [r for r in found.outcome.reasons if r.code is Why.LAMP_RESPONSE]
+    assert reason.numbers["found"] == pytest.approx(SLOW, rel=0.1)
+    assert reason.numbers["stated"] == stated
+
+
+@pytest.mark.parametrize("stated", thorough.some([20.0, 60.0, 180.0], 2))
+def test_a_time_constant_that_is_not_known_widens_the_intervals(stated):
+    """Ten seconds behind the switch nobody can tell how warm it will be in the end."""
+    _, way, record, testbed = moving(0, SPIN, lambda t: THERMAL * warmth(t))
+    record, testbed = lamp_at(stated, window(record, 0.0, LAMP + 10.0), testbed)
+    names = GROUPS["thermal"]
+    found = estimate(record, testbed, Params(names))
+    known = estimate(replace(record, temperature=thermometer(0.0)), testbed, Params(names))
+    sd, least = (np.sqrt(np.diag(one.covariance_of(names))) for one in (found, known))
+    assert (np.abs(found.values(names) - THERMAL * way) < 4.0 * sd).all()
+    assert sd.max() > 5.0 * least.max()
+
+
 @thorough.whole
 def test_a_thermometer_that_errs_leaves_com_as_certain_as_stated():
     """By 0.05 K a reading, which moves com by 0.05 um: com within 4 sd, the term is there."""
@@ -109,8 +147,8 @@ def test_a_thermometer_that_errs_leaves_com_as_certain_as_stated():
 
 def test_a_temperature_that_does_not_change_is_no_candidate():
     """Nor one that was never recorded: its columns would be zero."""
-    record = moving(0, SPIN, drift)[2]
+    _, _, record, testbed = moving(0, SPIN, drift)
     steady = Samples(np.array([0.0, SECONDS]), np.array([[21.0], [21.0]]))
-    assert not warms(record)
-    assert not warms(replace(record, temperature=steady))
-    assert warms(replace(record, temperature=thermometer(0.0)))
+    assert not warms(record, testbed)
+    assert not warms(replace(record, temperature=steady), testbed)
+    assert warms(replace(record, temperature=thermometer(0.0)), testbed)

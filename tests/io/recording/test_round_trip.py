@@ -62,6 +62,7 @@ def channels(draw: st.DrawFn) -> dict[str, Any]:
         "devices": vectors(10.0, len(devices)) if devices else None,
         "field": vectors(5e-5) if draw(st.booleans()) else None,
         "temperature": vectors(20.0, 1) if draw(st.booleans()) else None,
+        "lamp": vectors(1.0, 1) if draw(st.booleans()) else None,
     }
 
 

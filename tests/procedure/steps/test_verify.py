@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag
 
+from equipoise.dynamics.rigid_body import KNOWN_WARMTH
 from equipoise.model.estimate import Parameter
 from equipoise.model.move import Move
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
-from equipoise.model.recording import Samples
 from equipoise.model.torque_terms import GROUPS
 from equipoise.model.units import UM
 from equipoise.procedure.steps.joint_fit import learn
@@ -135,9 +135,12 @@ def test_drift_since_the_move_is_no_contradiction(known):
 
 def test_warmth_since_the_move_is_no_contradiction(known):
     """Warmer by 1 K before the move and by 2 K behind it: only the latter moved it since."""
-    rows = Samples(np.array([0.0, 30.0, 60.0]), np.array([[20.0], [21.0], [23.0]]))
     warm = with_drift(known, UM * np.array([1.0, 0.0, -0.5]), 1e-9, GROUPS["thermal"])
-    warm = replace(warm, recording=replace(warm.recording, temperature=rows))
+    line = warm.fitted.problem.line
+    inputs = line.known.copy()
+    inputs[:, KNOWN_WARMTH] = np.interp(line.t, [0.0, 30.0, 60.0], [0.0, 1.0, 3.0])
+    problem = replace(warm.fitted.problem, line=line._replace(known=inputs))
+    warm = replace(warm, fitted=replace(warm.fitted, problem=problem))
     before, sd = com_then(warm, 30.0)
     np.testing.assert_allclose(known.com - before, [2.0 * UM, 0.0, -1.0 * UM], rtol=1e-9)
     np.testing.assert_allclose(sd, np.hypot(known.sd, 2e-9), rtol=1e-12)

@@ -119,7 +119,7 @@ def stoppable(numbers: Iterable[int] = STOPPING) -> Generator[Requests]:
         yield requests
         requests.carry_out()
     finally:
-        put_back(ours)
+        put_back(tuple(ours.items()))
 
 
 def leave_to_system() -> None:

@@ -32,6 +32,7 @@ PARTS = {
     "torque": AXES,
     "field": AXES,
     "temperature": ("air",),
+    "lamp": ("power",),
 }
 OF_DEVICES = {"wheel": "rad/s", "gimbal": "rad", "dipole": "A m2", "jet": "N m"}
 

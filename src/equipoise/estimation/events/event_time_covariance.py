@@ -46,6 +46,11 @@ def with_moments(concluded: Estimate, record_model: RecordModel) -> Estimate:
     models = [later(record_model, row) for row in np.diag(sd)]
     shifted = [conclude(model.fitted, METHOD, record_model.recording) for model in models]
     rise = np.array([farther(model, record_model) for model in models])
+    return widened(concluded, shifted, rise)
+
+
+def widened(concluded: Estimate, shifted: list[Estimate], rise: Floats) -> Estimate:
+    """Return an estimate whose covariance counts what each of those at one sd differs by."""
     columns = columns_of(concluded.parameters, [one.parameters for one in shifted], rise)
     ratios = columns_of(concluded.ratios, [one.ratios for one in shifted], rise)
     return replace(

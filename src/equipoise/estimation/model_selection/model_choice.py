@@ -29,6 +29,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.actuators.lags import LAG, logged_late
+from equipoise.dynamics.lamp_warmth import by_lamp, warms
 from equipoise.estimation.events.event_search import CLEAR, spans_of_travels
 from equipoise.estimation.events.jump_test import threshold
 from equipoise.estimation.events.record_model import (
@@ -39,6 +40,11 @@ from equipoise.estimation.events.record_model import (
     refitted,
 )
 from equipoise.estimation.model_selection.cross_validation import posed_in, predicts_better
+from equipoise.estimation.model_selection.lamp_response import (
+    THERMAL,
+    responding,
+    with_time_constant,
+)
 from equipoise.estimation.model_selection.row_timing import retimed, with_clock
 from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, with_free_vertical
 from equipoise.estimation.output_error.problem import changes
@@ -48,12 +54,11 @@ from equipoise.estimation.parameters.fit_parameters import sensor_sizes, term_si
 from equipoise.estimation.search_budget import Stage
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats
-from equipoise.model.recording import warms
 
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
 DELAY, CLOCK = sensor_terms.GROUPS["camera_delay"], sensor_terms.GROUPS[sensor_terms.GYRO_CLOCK]
-THERMAL = torque_terms.GROUPS["thermal"]
+SLOWER = (-1.5, 0.0, 1.5)  # of ln of a lamp's time constant, chosen: what may promise
 LATE_LOG = (LAG,)  # of the masses: an error of theirs, not a term
 SURE = 6.0  # 2 ln ratio
 GROUPS = (PLUMB, HEADING, DELAY, CLOCK, *GYRO, *torque_terms.GROUPS.values())
@@ -79,18 +84,21 @@ def candidates(model: RecordModel) -> list[tuple[str, ...]]:
     if spans_of_travels(model) and not all(mass.logged_late for mass in model.testbed.masses):
         found.append(LATE_LOG)
     found += [group for group in torque_terms.GROUPS.values() if group != THERMAL]
-    if warms(recording):
+    if warms(recording, model.testbed):
         found.append(THERMAL)
     sought = {*params.sensor, *params.terms}
     return [group for group in found if not sought.issuperset(group)]
 
 
 def levelled(model: RecordModel) -> RecordModel:
-    """Return the model fitted with the camera's vertical free, where it may lean."""
-    if not may_lean(model.recording, model.testbed):
-        return model
-    params = with_free_vertical(model.recording, model.testbed, model.params)
-    return refitted(replace(model, params=params))
+    """Return the model fitted with the camera's vertical free, where it may lean.
+
+    And with a declared warmth as slow as the record has it.
+    """
+    if may_lean(model.recording, model.testbed):
+        params = with_free_vertical(model.recording, model.testbed, model.params)
+        model = refitted(replace(model, params=params))
+    return responding(model)
 
 
 def with_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:
@@ -163,6 +171,13 @@ def surplus(model: RecordModel, group: tuple[str, ...]) -> float:
     return float(b_B @ np.linalg.solve(observed, b_B) - np.linalg.slogdet(observed)[1])
 
 
+def promise(model: RecordModel, group: tuple[str, ...]) -> float:
+    """Return the surplus of a group; that of a lamp's warmth, however slow it is."""
+    if group == THERMAL and by_lamp(model.recording, model.testbed):
+        return max(surplus(with_time_constant(model, shift), group) for shift in SLOWER)
+    return surplus(model, group)
+
+
 def lead(group: tuple[str, ...]) -> float:
     """Return the 2 ln ratio that a group needs to be tried.
 
@@ -174,7 +189,7 @@ def lead(group: tuple[str, ...]) -> float:
 def best_group(model: RecordModel, refused: Refused) -> tuple[tuple[str, ...], float]:
     """Return the group that promises most, a late log first, and by how much beyond its lead."""
     open_to = [group for group in candidates(model) if group not in refused]
-    found = [surplus(model, group) - lead(group) for group in open_to]
+    found = [promise(model, group) - lead(group) for group in open_to]
     most = int(np.argmax(found)) if found else 0
     if LATE_LOG in open_to and found[open_to.index(LATE_LOG)] > SURE:
         most = open_to.index(LATE_LOG)
@@ -188,7 +203,7 @@ def likeliest(models: Sequence[RecordModel]) -> RecordModel:
 
 def extended(model: RecordModel, group: tuple[str, ...], refused: Refused) -> RecordModel:
     """Return the model with a group of terms, if that predicts better; refuse it otherwise."""
-    richer = retimed(refitted(with_group(model, group)))
+    richer = responding(retimed(refitted(with_group(model, group))))
     if richer.fitted.converged and model.may(Stage.TERMS) and predicts_better(model, richer):
         return richer
     refused.add(group)

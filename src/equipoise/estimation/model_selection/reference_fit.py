@@ -19,11 +19,13 @@ from equipoise.estimation.events.record_model import RecordModel, jumping, refit
 from equipoise.estimation.model_selection.decimation import condensed, with_few_bends
 from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
+from equipoise.estimation.model_selection.lamp_response import with_response
 from equipoise.estimation.model_selection.survey import MOST_EVENTS, is_calm, survey
 from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
     clock_reasons,
     driven,
+    lamp_reasons,
     lean_reasons,
     log_reasons,
     noise_reasons,
@@ -112,6 +114,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
         *lean_reasons(model, concluded),
         *sensor_reasons(model, concluded),
         *term_reasons(model, requested),
+        *lamp_reasons(model),
         *walk_reasons(model),
     ]
     if share > DRIVEN:
@@ -238,7 +241,7 @@ def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Esti
 
     The latter where the search was finished: it takes long, and is not needed.
     """
-    concluded = with_moments(concluded, model)
+    concluded = with_response(with_moments(concluded, model), model)
     concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
     residual = concluded.residual if model.unfinished else held_out(model, concluded.residual)

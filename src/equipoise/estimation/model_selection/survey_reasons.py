@@ -5,6 +5,7 @@ import numpy as np
 from equipoise.actuators.lags import LAG
 from equipoise.estimation.events.record_model import RecordModel, slowest
 from equipoise.estimation.model_selection.cross_validation import posed_in
+from equipoise.estimation.model_selection.lamp_response import follows
 from equipoise.estimation.model_selection.model_choice import candidates, with_group
 from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.estimation.output_error.solution import evaluate
@@ -18,7 +19,7 @@ from equipoise.model.reasons.data_reasons import Unexplained
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason, axes_of
 
-NOISY = 1.3  # chosen: a noise off by more is reported
+NOISY = 1.3  # chosen: a noise, or a time, off by more is reported
 OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, unreported
 IMPLAUSIBLE = 4.0  # sd of real sensors' errors, chosen
 LEANS = 4.0  # sd, chosen: a smaller lean is corrected unreported
@@ -58,6 +59,17 @@ def reasons_of_added(terms: tuple[str, ...]) -> tuple[Reason, ...]:
     torques = tuple(group for group in groups if group in torque_terms.GROUPS)
     found = (Reason(Why.TERMS_ADDED, groups),) if groups else ()
     return (*found, Reason(Why.TERMS_TO_DECLARE, torques)) if torques else found
+
+
+def lamp_reasons(model: RecordModel) -> list[Reason]:
+    """Return how slowly a lamp warms the platform, where it is another time than stated."""
+    found, stated = model.testbed.lamp, model.stated.lamp
+    if not follows(model) or found is None or stated is None:
+        return []
+    if 1 / NOISY < found.time_constant / stated.time_constant < NOISY:
+        return []
+    numbers = {"found": found.time_constant, "stated": stated.time_constant}
+    return [Reason(Why.LAMP_RESPONSE, (), numbers)]
 
 
 def log_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:

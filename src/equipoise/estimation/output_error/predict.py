@@ -8,6 +8,7 @@ import numpy as np
 from equipoise.actuators.drive_errors import on_rails, rails_of
 from equipoise.actuators.lags import LAG, lagging, logged_late
 from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.dynamics.lamp_warmth import temperature_of
 from equipoise.dynamics.propagation import propagate, rigid_body
 from equipoise.dynamics.regressor import N_TORQUES, THERMAL
 from equipoise.dynamics.rigid_body import KNOWN_D
@@ -49,7 +50,7 @@ def run(
         t, np.zeros(0), on_rails(track_of(recording, testbed), len(rails)), len(rails),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
         recording.momentum, recording.torque, errors.response, errors.owner,
-        temperature=recording.temperature if np.any(torque[THERMAL:]) else None,
+        temperature=temperature_of(recording, testbed) if np.any(torque[THERMAL:]) else None,
     )  # fmt: skip
     first = KNOWN_D + len(rails)
     off = [found.get(name, 0.0) for name in errors.names]

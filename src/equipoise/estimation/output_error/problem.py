@@ -11,6 +11,7 @@ from equipoise.actuators.lags import LAG
 from equipoise.actuators.mass_errors import MassErrors, mass_errors
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.dynamics import sensitivities
+from equipoise.dynamics.lamp_warmth import temperature_of
 from equipoise.dynamics.propagation import stacked
 from equipoise.dynamics.sensitivities import Columns
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
@@ -230,7 +231,7 @@ def pose(
         errors.owner,
         at_nodes=False,
         cut=np.array([jump.t for jump in jumps]),
-        temperature=recording.temperature if set(THERMAL) & set(layout.terms) else None,
+        temperature=temperature_of(recording, testbed) if {*THERMAL} & {*layout.terms} else None,
     )
     measurements = Measurements(
         np.ascontiguousarray(attitude.values if len(attitude) else np.zeros((0, 4))),

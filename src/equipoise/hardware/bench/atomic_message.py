@@ -28,6 +28,6 @@ def whole_message() -> Generator[None]:
             signal.signal(number, lambda number, _frame: requested.append(number))
         yield
     finally:
-        put_back(before)
+        put_back(tuple(before.items()))
     if requested:
         signal.raise_signal(requested[0])

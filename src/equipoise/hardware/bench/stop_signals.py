@@ -5,7 +5,7 @@ that is gone. Windows has no SIGHUP.
 """
 
 import signal
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any
@@ -40,15 +40,15 @@ def handled(number: int | None, handler: Handler) -> Generator[None]:
         signal.signal(number, before)
 
 
-def put_back(before: Mapping[int, Any]) -> None:
-    """Give each signal the handler that it had, the others too where one of these raises meanwhile.
+def put_back(before: Sequence[tuple[int, Any]]) -> None:
+    """Give each signal its handler of before, the others too where one of these raises meanwhile.
 
     The first of them may be called before the second is there; what it raises comes out in the end.
     """
     if not before:
         return
-    (number, handler), *others = before.items()
+    (number, handler), *others = before
     try:
         signal.signal(number, signal.SIG_DFL if handler is None else handler)
     finally:
-        put_back(dict(others))
+        put_back(others)

@@ -57,6 +57,7 @@ class ColumnMap:
     devices: tuple[NamedColumn, ...] = ()
     field: Columns | None = None
     temperature: Columns | None = None  # degC
+    lamp: Columns | None = None  # of its full power
     lab_up: str = "z"  # the laboratory axis of the table that points up
     body: tuple[str, str, str] = ("x", "y", "z")  # our body axes in terms of the table's
     inverse: bool = False  # the attitude turns laboratory into body components

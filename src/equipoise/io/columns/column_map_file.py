@@ -110,6 +110,12 @@ class TemperatureTable(Table):
     unit: Literal["degC"]
 
 
+class LampTable(Table):
+    """A lamp that warms the platform, as a share of its full power: 0 off, 1 on."""
+
+    column: str
+
+
 class MapFile(Table):
     """A column map file as a whole."""
 
@@ -128,6 +134,7 @@ class MapFile(Table):
     device: list[DeviceTable] = Field([])
     field: TriadTable | None = None
     temperature: TemperatureTable | None = None
+    lamp: LampTable | None = None
 
 
 def read_column_map(path: str | Path) -> ColumnMap:
@@ -153,6 +160,7 @@ def read_column_map(path: str | Path) -> ColumnMap:
         devices=tuple(_device(d, f"{source}: device[{i + 1}]") for i, d in enumerate(table.device)),
         field=_triad(table.field, "magnetic", f"{source}: field"),
         temperature=None if table.temperature is None else Columns((table.temperature.column,)),
+        lamp=None if table.lamp is None else Columns((table.lamp.column,)),
         lab_up=table.lab_up,
         body=body,
         inverse=table.attitude is not None and table.attitude.turns == "laboratory to body",

@@ -2,7 +2,7 @@
 
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_mm  h_x_N_m_s ...  torque_x_N_m ...
     wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  jet_<name>_N_m  field_x_uT ...
-    temperature_degC
+    temperature_degC  lamp_power
 
 One table for all channels; a cell is blank where its channel has no row at that time.
 """
@@ -27,6 +27,7 @@ MOMENTUM = ("h_x_N_m_s", "h_y_N_m_s", "h_z_N_m_s")
 TORQUE = ("torque_x_N_m", "torque_y_N_m", "torque_z_N_m")
 FIELD = ("field_x_uT", "field_y_uT", "field_z_uT")
 TEMPERATURE = ("temperature_degC",)
+LAMP = ("lamp_power",)  # of its full power: 0 off, 1 on
 # Of a column map: the columns, and what one of their unit is in SI.
 GROUPS = {
     "quaternion": (ATTITUDE, 1.0),
@@ -35,10 +36,11 @@ GROUPS = {
     "torque": (TORQUE, 1.0),
     "field": (FIELD, UT),
     "temperature": (TEMPERATURE, 1.0),
+    "lamp": (LAMP, 1.0),
 }
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
-OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature)_.*")
+OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature|lamp)_.*")
 NAMED = 5  # columns that a note names; chosen: a screen
 
 
@@ -94,6 +96,7 @@ def native_columns(recording: Recording) -> dict[str, Series1]:
         (recording.devices, tuple(d.column for d in devices), per_unit),
         (recording.field, FIELD, 1 / UT),
         (recording.temperature, TEMPERATURE, 1.0),
+        (recording.lamp, LAMP, 1.0),
     )
     present = [(c, names, unit) for c, names, unit in channels if c is not None and len(c)]
     if not present:

@@ -4,7 +4,7 @@ Columns have the names of our own files, all in SI:
 
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_m  h_x_N_m_s ...  torque_x_N_m ...
     wheel_<name>_rad_s  gimbal_<name>_rad  dipole_<name>_A_m2  jet_<name>_N_m  field_x_T ...
-    temperature_degC
+    temperature_degC  lamp_power
 
 so that a column map can name them, and what tables need set right is set right once, for all.
 """
@@ -17,7 +17,15 @@ import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import si_column
-from equipoise.io.columns.native_columns import ATTITUDE, MOMENTUM, RATE, TEMPERATURE, TIME, TORQUE
+from equipoise.io.columns.native_columns import (
+    ATTITUDE,
+    LAMP,
+    MOMENTUM,
+    RATE,
+    TEMPERATURE,
+    TIME,
+    TORQUE,
+)
 from equipoise.io.columns.table import Table
 from equipoise.io.formats.clock_units import seconds
 from equipoise.model.arrays import Floats, Ints, Series1
@@ -26,7 +34,7 @@ from equipoise.model.errors import InputError
 FIELD = ("field_x_T", "field_y_T", "field_z_T")
 LARGEST = 1e150  # chosen: its square is still a double; no sensor's number
 GROUPS = {"rate": RATE, "momentum": MOMENTUM, "torque": TORQUE, "field": FIELD,
-         "temperature": TEMPERATURE}  # fmt: skip
+         "temperature": TEMPERATURE, "lamp": LAMP}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, eq=False)

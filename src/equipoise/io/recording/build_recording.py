@@ -21,7 +21,7 @@ from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 
 Notes = tuple[str, ...]
-SCALARS = ("masses", "devices", "temperature")
+SCALARS = ("masses", "devices", "temperature", "lamp")
 FEWEST = 3  # rows of a sensor: two say nothing of how an angle's rate changes
 EPOCH = 1e6  # s: a clock beyond twelve days counts from a date, not from the run (chosen)
 

@@ -126,6 +126,15 @@ class MagneticField(RecordTable):
         return record_of(model.MagneticField, self, where)
 
 
+class Lamp(RecordTable):
+    """A lamp, or any heater, whose switch is recorded (column lamp_power)."""
+
+    KIND = model.Lamp
+
+    warms_K: Positive = Field(description="what it shines on, in the end; a guess will do")
+    time_constant_s: Positive
+
+
 Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
 
 

@@ -104,6 +104,7 @@ class TestbedFile(RecordTable):
     magnetic_field: devices.MagneticField | None = None
     weight: Annotated[list[Weight], Holds("weights")] = Field([])
     weight_grid: Annotated[list[WeightGrid], Holds("grids")] = Field([])
+    lamp: devices.Lamp | None = None
     sensor: Annotated[Sensors, Holds(ITSELF)] = Sensors()
     disturbance: Annotated[Disturbance, Holds(ITSELF)] = Disturbance()
     hardware: Hardware | None = None

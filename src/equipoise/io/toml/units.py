@@ -45,6 +45,7 @@ TO_SI = {
     "Hz": 1.0,
     "kHz": 1e3,
     "percent": si.PERCENT,
+    "K": 1.0,
 }
 KINDS = {
     "time": ("s", "ms", "us", "ns", "min"),
@@ -56,7 +57,8 @@ KINDS = {
     "dipole": ("A m2", "mA m2"),
     "magnetic": ("T", "mT", "uT", "nT"),
 }
-AS_SAID = ("rpm", "percent", "deg", "rad", "kg", "um", "uT", "mm", "cm", "ms", "mg", "g", "m", "s")
+AS_SAID = ("rpm", "percent", "deg", "rad", "kg", "um", "uT", "mm", "cm", "ms", "mg", "g", "m", "s",
+           "K")  # fmt: skip
 # As they end a key: how to say them.
 SPOKEN = {
     "deg_s_rthz": "deg/s per root Hz",

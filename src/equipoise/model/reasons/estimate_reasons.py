@@ -98,6 +98,11 @@ class EstimateReason(Code):
         "The gyro's clock is {fast:% .2g} % fast beside the camera's (slow, if negative); that is "
         "corrected.",
     )
+    LAMP_RESPONSE = (
+        "lamp_response",
+        "The lamp warms the platform with a time constant of {found:.3g} s, not {stated:.3g} s as "
+        "stated; that is corrected.",
+    )
     LATE_LOG = (
         "late_log",
         "Masses travelled {late:ms .0f} ms behind their log (before it, if negative); that is "

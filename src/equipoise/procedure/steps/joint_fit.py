@@ -6,6 +6,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import shift_by, shift_by_travel
 from equipoise.assessment.record_checks.mass_flicker import without_flicker
+from equipoise.dynamics.lamp_warmth import warms
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error import trajectory
@@ -16,7 +17,7 @@ from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
 from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
-from equipoise.model.recording import Recording, join, warms
+from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS, among
 
@@ -100,7 +101,7 @@ def learn(
     testbed = as_if_stiff(testbed)
     fresh = replace(fresh, masses=without_flicker(fresh, testbed))
     recording = fresh if before is None else join(before.recording, fresh)
-    if not warms(recording):
+    if not warms(recording, testbed):
         considered = tuple(term for term in considered if term not in THERMAL)
     setup = FitSetup(recording, testbed, considered, allowed)
     knowledge = fitted_in(setup, before, () if before is None else before.found)

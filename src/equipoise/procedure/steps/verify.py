@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.special import ndtr
 
-from equipoise.dynamics.timeline import warmth
+from equipoise.dynamics.rigid_body import KNOWN_WARMTH
 from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.gaussian_length import SURE, Bounded
 from equipoise.model.arrays import Matrix3, Vector3
@@ -62,9 +62,10 @@ def fresh_misfit(knowledge: Knowledge, since: float) -> float:
 
 def com_then(knowledge: Knowledge, since: float) -> tuple[Vector3, Vector3]:
     """Return com less its drift and warmth since a time (s), as far as is known, and sd (m)."""
-    estimate, record = knowledge.estimate, knowledge.recording
-    end = record.span[1]
-    warmer = warmth(record.temperature, np.array([since, end]))[1, 0]
+    estimate, end = knowledge.estimate, knowledge.recording.span[1]
+    line = knowledge.fitted.problem.line
+    warm = line.known[:, KNOWN_WARMTH]
+    warmer = float(warm[-1] - np.interp(since, line.t, warm))
     ways = [(DRIFT, end - since), (THERMAL, warmer)]
     moving = [(-amount * np.eye(3)[k], name) for names, amount in ways
               for k, name in enumerate(names) if estimate.has(name)]  # fmt: skip

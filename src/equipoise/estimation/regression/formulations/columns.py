@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
+from equipoise.dynamics.lamp_warmth import temperature_of
 from equipoise.dynamics.regressor import MOMENT, TORQUE, WIDTH, regressor
 from equipoise.dynamics.timeline import straight_lines, warmth
 from equipoise.maths.attitude import to_matrix
@@ -78,7 +79,7 @@ def columns(
     R = to_matrix(q)
     g = np.ascontiguousarray(-testbed.gravity * R[:, 2, :])
     full = np.zeros((len(t), 3, WIDTH))
-    warm = warmth(recording.temperature, t)[:, 0]
+    warm = warmth(temperature_of(recording, testbed), t)[:, 0]
     regressor_rows(w, g, t, warm, testbed.body.mass, testbed.gravity, full)
     wanted = [TORQUE + torque_terms.TERMS.index(term) for term in terms]
     torque = full[:, :, [*range(MOMENT, TORQUE), *wanted]]
