@@ -108,6 +108,8 @@ SENSORS = _of(
 
 DYNAMICS = _of(
     "dynamics",
+    ("lamp_warmth.py", "part * (aim - warm[-1])", "part * (aim + warm[-1])",
+     "dynamics/test_lamp_warmth.py"),
     ("timeline.py", "if steps > MOST_STEPS:", "if steps > MOST_STEPS + 1:",
      "dynamics/test_timeline.py::test_times_too_distant_are_refused"),
     ("regressor.py", "-speed * w[i]", "speed * w[i]", "dynamics/test_regressor.py"),
@@ -171,6 +173,10 @@ ASSESSMENT = _of(
 
 ESTIMATION = _of(
     "estimation",
+    ("model_selection/lamp_response.py", "np.full(2, 2.0)", "np.full(2, 2e6)",
+     "estimation/model_selection/test_undeclared_motion.py"),
+    ("model_selection/lamp_response.py", "stated.time_constant * float(np.exp(shift))",
+     "stated.time_constant", "estimation/model_selection/test_undeclared_motion.py"),
     ("model_selection/row_timing.py", "found = model.testbed.masses[0].lag + float(",
      "found = model.testbed.masses[0].lag - float(",
      "estimation/model_selection/test_row_timing.py"),
@@ -384,6 +390,8 @@ HARDWARE = _of(
      "app/commands/test_captured_bytes.py"),
     ("links/captured_rows.py", "if stamp < clock.last:", "if stamp < 0 * clock.last:",
      "app/commands/test_captured_bytes.py"),
+    ("bench/stop_signals.py", "put_back(others)", "put_back(())",
+     "hardware/bench/test_atomic_message.py"),
     ("bench/atomic_message.py", "for number in before:", "for number in ():",
      "hardware/bench/test_atomic_message.py"),
     ("camera/board_errors.py", "SCALE_SD = 0.003", "SCALE_SD = 0.00003",
