@@ -56,7 +56,7 @@ from verification import (
     tracker_knows,
     verdicts,
 )
-from verification.document import page, section, table_of
+from verification.document import page, section, sections_of, table_of
 from verification.result import Result, Spread
 from verification.workers import spread_over
 
@@ -120,8 +120,11 @@ def arguments(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(CHECKS))
     parser.add_argument("--seeds", type=int, help="instead of those that a claim is stated for")
     parser.add_argument("--workers", type=int, default=2, help="processes (2)")
-    parser.add_argument("--date", default=None, help="to write into the page (today)")
-    parser.add_argument("--output", type=Path, default=None, help=f"page to write ({PAGE.name})")
+    parser.add_argument("--date", default=None, help="to write into the sections (today)")
+    parser.add_argument(
+        "--output", type=Path, default=None,
+        help=f"page to write ({PAGE.name}); other sections that it has stay as they are",
+    )  # fmt: skip
     requested = parser.parse_args(words)
     unknown = [name for name in requested.names if name not in CHECKS]
     if unknown:
@@ -151,6 +154,11 @@ def measured(name: str, seeds: int, workers: int, console: Console) -> tuple[Res
     return result, time.perf_counter() - began
 
 
+def kept_in(target: Path) -> dict[str, str]:
+    """Return the sections that a page has already."""
+    return sections_of(target.read_text(encoding="utf-8")) if target.exists() else {}
+
+
 def main(words: Sequence[str]) -> int:
     """Measure what was asked for; the page is written when everything was, or at --output."""
     requested = arguments(words)
@@ -160,17 +168,17 @@ def main(words: Sequence[str]) -> int:
     target = requested.output or (PAGE if whole else None)
     if target is not None:
         check_writable(target)
+    date = requested.date or datetime.datetime.now(tz=datetime.UTC).date().isoformat()
     results: list[Result] = []
-    sections: list[str] = []
+    sections = {} if whole or target is None else kept_in(target)
     for name in names:
         seeds = requested.seeds or CHECKS[name].seeds
         result, seconds = measured(name, seeds, requested.workers, console)
         console.print(table_of(result))
         results.append(result)
-        sections.append(section(result, command_of(name, seeds), seconds))
+        sections[name] = section(result, command_of(name, seeds), seconds, date)
     if target is not None:
-        date = requested.date or datetime.datetime.now(tz=datetime.UTC).date().isoformat()
-        write_whole(target, page(sections, date, results))
+        write_whole(target, page(sections[name] for name in CHECKS if name in sections))
         console.print(f"Wrote {target}.")
     return 1 if any(result.missed for result in results) else 0
 

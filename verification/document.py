@@ -1,7 +1,8 @@
 """Results as a terminal table and as a page of the documentation."""
 
 import platform
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable
 from importlib.metadata import PackageNotFoundError, version
 
 from rich.table import Table
@@ -10,6 +11,7 @@ from rich.text import Text
 from equipoise import __version__
 from verification.result import Result, Row
 
+HEADING = re.compile(r"^## (\w+)$", re.MULTILINE)
 PACKAGES = ("numpy", "scipy", "numba", "mujoco")
 
 
@@ -35,7 +37,7 @@ def cell(text: str) -> str:
     return text.replace("|", "\\|").replace("\n", " ")
 
 
-def section(result: Result, command: str, seconds: float) -> str:
+def section(result: Result, command: str, seconds: float, date: str) -> str:
     """Return a result as a section of the page."""
     lines = [f"## {result.name}", "", result.claim, ""]
     if result.rows:
@@ -46,7 +48,7 @@ def section(result: Result, command: str, seconds: float) -> str:
         ]
         lines.append("")
     lines += [line for note in result.notes for line in (note, "")]
-    lines.append(f"Command: `{command}` ({seconds:.0f} s).")
+    lines.append(f"Command: `{command}` ({seconds:.0f} s, {date}).")
     return "\n".join(lines)
 
 
@@ -65,14 +67,24 @@ def versions() -> str:
     return f"Equipoise {__version__}, {python}, {others}, {platform.system()} {platform.machine()}"
 
 
-def page(sections: Sequence[str], date: str, results: Sequence[Result]) -> str:
+def sections_of(text: str) -> dict[str, str]:
+    """Return the sections of a page, by name."""
+    places = list(HEADING.finditer(text))
+    ends = [*(place.start() for place in places[1:]), len(text)]
+    return {
+        place[1]: text[place.start() : end].rstrip()
+        for place, end in zip(places, ends, strict=True)
+    }
+
+
+def page(sections: Iterable[str]) -> str:
     """Return the whole page."""
-    rows = [row for result in results for row in result.rows]
-    missed = sum(not row.ok for row in rows)
+    body = "\n\n".join(sections)
+    found, missed = (body.count(f"| {verdict} |\n") for verdict in ("yes", "NO"))
     head = (
         "# What was verified\n\nWritten by `make verify`; do not edit. Each section is one "
-        "file of `verification/`. Tests in `tests/statistical` call the same functions with "
-        "fewer seeds.\n\n"
-        f"{date}. {versions()}. {len(rows)} numbers, {missed} not as wanted."
+        "file of `verification/`, and says when it was measured. Tests in `tests/statistical` call "
+        "the same functions with fewer seeds.\n\n"
+        f"{versions()}. {found + missed} numbers, {missed} not as wanted."
     )
-    return "\n\n".join([head, *sections]) + "\n"
+    return f"{head}\n\n{body}\n"
