@@ -15,6 +15,15 @@ def test_the_table_of_the_rooms_equals_the_code():
     assert text == rooms.page(text), "run `make rooms`"
 
 
+def test_the_text_of_every_room_stands_in_its_box():
+    for room in rooms.rooms():
+        _, top, _, height = rooms.box(room.name)
+        lines = [
+            int(y) for y in re.findall(r'<text x="\d+" y="(\d+)"', "".join(rooms.drawn_room(room)))
+        ]
+        assert max(lines) < top + height, room.name
+
+
 def test_every_room_states_its_duty_in_one_sentence():
     duties = [room.duty for room in rooms.all_rooms(rooms.rooms())]
     assert [duty for duty in duties if not duty.endswith(".") or len(duty.split()) > 25] == []

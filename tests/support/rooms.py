@@ -23,8 +23,8 @@ PLACES = {
     "app": (0, 0, 12, 3), "study": (0, 3, 4, 2), "procedure": (4, 3, 5, 2),
     "planning": (0, 5, 4, 2), "simulation": (4, 5, 5, 2), "estimation": (0, 7, 5, 4),
     "control": (5, 7, 2, 4), "assessment": (7, 7, 2, 4), "dynamics": (0, 11, 9, 1),
-    "sensors": (0, 12, 4, 1), "actuators": (4, 12, 5, 1), "io": (9, 3, 3, 5),
-    "hardware": (9, 8, 3, 5), "maths": (0, 13, 12, 1), "model": (0, 14, 12, 1),
+    "sensors": (0, 12, 4, 2), "actuators": (4, 12, 5, 2), "io": (9, 3, 3, 5),
+    "hardware": (9, 8, 3, 6), "maths": (0, 14, 12, 1), "model": (0, 15, 12, 2),
 }  # fmt: skip
 CELL, ROW, GAP, MARGIN = 84, 40, 12, 14  # px
 LINE, SMALL, LARGE, COLUMN, LETTER = 15, 11, 14, 165, 6.5  # px
@@ -149,7 +149,7 @@ def drawn_arrow(above: str, below: str) -> str:
 def picture() -> str:
     """Return the picture of all rooms as SVG."""
     width = 2 * MARGIN + 12 * CELL - GAP
-    height = 2 * MARGIN + 15 * (ROW + GAP) - GAP
+    height = 2 * MARGIN + max(top + tall for _, top, _, tall in PLACES.values()) * (ROW + GAP) - GAP
     near = sorted(pair for pair in arrows() if touching(*pair))
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img">',
