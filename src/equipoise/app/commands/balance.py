@@ -22,7 +22,7 @@ from equipoise.app.commands.by_hand import (
     is_by_hand,
 )
 from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, let_go, prepare
-from equipoise.app.console.terminal import busy, counted
+from equipoise.app.console.terminal import announced, busy, counted
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def balance(
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
     runs = _runs(series, on_bench)
-    bed, seed = testbed_from(testbed), seed_of(seed)
+    bed, seed = announced(testbed_from(testbed)), seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed).manoeuvre
     check_outputs(out)
     with busy("preparing the bench", announce=False):

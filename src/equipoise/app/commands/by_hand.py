@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from cyclopts import Parameter
 
 from equipoise.app.arguments.options import WHOLE, Flag, Reading, Whole
-from equipoise.app.console.terminal import busy
+from equipoise.app.console.terminal import announced, busy
 
 if TYPE_CHECKING:
     from equipoise.app.runs.balancing import Goal
@@ -81,7 +81,7 @@ def balance_by_hand(requested: Request) -> int:
     from equipoise.procedure.balancing.balance_manually import check
 
     rounds = int(positive("--max-rounds", requested.by.max_rounds))
-    bed = testbed_from(requested.testbed)
+    bed = announced(testbed_from(requested.testbed))
     check(bed)
     check_outputs(requested.out)
     if requested.by.session is not None:

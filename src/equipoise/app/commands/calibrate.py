@@ -14,7 +14,7 @@ from equipoise.app.arguments.options import (
     Searching,
     Seeking,
 )
-from equipoise.app.console.terminal import busy, show_paths
+from equipoise.app.console.terminal import announced, busy, show_paths
 from equipoise.model.errors import InputError
 from equipoise.model.units import MM
 
@@ -61,7 +61,7 @@ def calibrate(
     from equipoise.app.arguments.inputs import options_of, testbed_from
     from equipoise.estimation.calibration.calibration import CalibrateOptions
 
-    bed = testbed_from(testbed)
+    bed = announced(testbed_from(testbed))
     if moves:
         return _report_moves(bed, testbed)
     if file is None:

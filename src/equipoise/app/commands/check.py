@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag
-from equipoise.app.console.terminal import agreed, busy, stdout
+from equipoise.app.console.terminal import agreed, announced, busy, stdout
 
 if TYPE_CHECKING:
     from equipoise.app.bench.bench_check import CheckResult
@@ -37,7 +37,7 @@ def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
     def print_line(line: str) -> None:
         stdout().print(line, markup=False, style="dim", soft_wrap=True)
 
-    bed = testbed_from(testbed)
+    bed = announced(testbed_from(testbed))
     reported: list[CheckResult] = []
     with busy("talking to the devices", announce=False):
         opener = Conversations(hardware_of(bed), print_line).open if explain else open_port

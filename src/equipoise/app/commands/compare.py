@@ -17,7 +17,7 @@ from equipoise.app.arguments.options import (
     Triple,
     Whole,
 )
-from equipoise.app.console.terminal import busy
+from equipoise.app.console.terminal import announced, busy
 
 if TYPE_CHECKING:
     from equipoise.app.runs.comparison import Compared, LawGoal
@@ -102,7 +102,7 @@ def compare(
     from equipoise.app.arguments.checks import check_outputs, positive, seed_of
     from equipoise.app.arguments.inputs import move_of, options_of, testbed_from
 
-    bed, first = testbed_from(testbed), seed_of(seed)
+    bed, first = announced(testbed_from(testbed)), seed_of(seed)
     seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
     duration = positive("--duration-s", duration_s)

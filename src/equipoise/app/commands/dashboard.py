@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag, Whole
-from equipoise.app.console.terminal import busy, stdout
+from equipoise.app.console.terminal import announced, busy, stdout
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -83,13 +83,13 @@ def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Openin
     if testbed is None and _is_recording(path):
         raise InputError("--testbed", "none", f"the testbed of which {shown} is a recording")
     if testbed is None:
-        bed = testbed_from(shown)
+        bed = announced(testbed_from(shown))
         if bench:
             hardware_of(bed)
         return Opening(bed, data_folder(), seed, bench)
     if bench:
         raise InputError("--bench", "a recording", "a testbed")
-    bed = testbed_from(testbed)
+    bed = announced(testbed_from(testbed))
     return Opening(bed, data_folder(), seed, False, fitting_recording_of(shown, WHOLE, bed), shown)
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from equipoise.app.arguments.environment import CALM, Exposure, surroundings_of
 from equipoise.app.arguments.options import Json, Several, Triple, Whole
-from equipoise.app.console.terminal import busy
+from equipoise.app.console.terminal import announced, busy
 
 
 def design(
@@ -55,7 +55,7 @@ def design(
     count = int(positive("--moves", moves))
     lean = in_si(not_negative("--misalignment-deg", misalignment_deg), DEG)
     positive("--require-torque", require_torque)
-    around, bed = surroundings_of(exposure), testbed_with_masses(testbed)
+    around, bed = surroundings_of(exposure), announced(testbed_with_masses(testbed))
     check_outputs(out)
     with busy("computing"):
         from equipoise.app.logbook.output import hand_over

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Whole
-from equipoise.app.console.terminal import busy, stdout
+from equipoise.app.console.terminal import announced, busy, stdout
 
 if TYPE_CHECKING:
     from equipoise.app.bench.emulation import EmulatedBench
@@ -34,7 +34,7 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
     from equipoise.io.testbed.testbed_file import write_testbed
     from equipoise.simulation.bench import SimulatedBench
 
-    bed, drawn = testbed_from(testbed), seed_of(seed)
+    bed, drawn = announced(testbed_from(testbed)), seed_of(seed)
     with busy("preparing the platform", announce=False):
         SimulatedBench(bed, drawn).read(1.0)  # compiles: a device that pauses seems unplugged
     longest = positive("--max-time-s", max_time_s) or float("inf")

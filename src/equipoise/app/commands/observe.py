@@ -11,7 +11,7 @@ from equipoise.app.arguments.options import (
     Searching,
     Seeking,
 )
-from equipoise.app.console.terminal import busy
+from equipoise.app.console.terminal import announced, busy
 
 
 def observe(
@@ -42,7 +42,8 @@ def observe(
     from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
     from equipoise.app.runs.terminal_waiting import budget_at_terminal
 
-    bed, options = testbed_from(testbed), options_of(seeking, budget_at_terminal(searching))
+    bed = announced(testbed_from(testbed))
+    options = options_of(seeking, budget_at_terminal(searching))
     check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
     with busy("following the motion"):

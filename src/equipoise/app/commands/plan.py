@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Literal
 
 from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Seeking, Whole
+from equipoise.app.console.terminal import announced
 
 
 def plan(
@@ -59,7 +60,7 @@ def plan(
     from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
     from equipoise.model.units import DEG, in_si
 
-    bed, requested, seed = testbed_from(testbed), options_of(seeking), seed_of(seed)
+    bed, requested, seed = announced(testbed_from(testbed)), options_of(seeking), seed_of(seed)
     duration = positive("--duration-s", duration_s)
     rate = in_si(positive("--max-rate-deg-s", max_rate_deg_s), DEG)
     count = int(not_negative("--moves", moves))

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag
-from equipoise.app.console.terminal import busy, show_paths
+from equipoise.app.console.terminal import announced, busy, show_paths
 
 if TYPE_CHECKING:
     from equipoise.model.bench import Bench
@@ -34,7 +34,7 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
     from equipoise.io.files.append_file import check_new
 
     duration = positive("--duration-s", duration_s)
-    bed = testbed_from(testbed)
+    bed = announced(testbed_from(testbed))
     check_new(out)
     with ExitStack() as held:
         with busy("reaching the bench", announce=False):

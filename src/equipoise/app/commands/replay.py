@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import WHOLE, Flag, Reading
-from equipoise.app.console.terminal import stdout
+from equipoise.app.console.terminal import announced, stdout
 
 if TYPE_CHECKING:
     from equipoise.app.live.observed_bench import Onlooker
@@ -40,7 +40,7 @@ def replay(
     from equipoise.app.live.replay import begun, replayed, shown_lines
 
     not_negative("--speed", speed)
-    bed = testbed_from(testbed)
+    bed = announced(testbed_from(testbed))
     recording = fitting_recording_of(file, reading, bed)
     pace, zero_ns = begun(recording, speed)
     with ExitStack() as stack:

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Names, Whole
-from equipoise.app.console.terminal import busy, counted, show_paths
+from equipoise.app.console.terminal import announced, busy, counted, show_paths
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def simulate(
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.recording_file import write_recording
 
-    bed = testbed_from(testbed)
+    bed = announced(testbed_from(testbed))
     duration = positive("--duration-s", 120.0 if duration_s is None else duration_s)
     moves, drawn = [move_of(text, bed) for text in move], seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed)

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag
-from equipoise.app.console.terminal import counted, show_paths
+from equipoise.app.console.terminal import announced, counted, show_paths
 
 if TYPE_CHECKING:
     from equipoise.app.runs.camera_tracking import Track
@@ -62,7 +62,7 @@ def track(
     if out is not None:
         format_to_write(out)
         check_writable(out)
-    bed = None if testbed is None else testbed_from(testbed)
+    bed = None if testbed is None else announced(testbed_from(testbed))
     unit = camera_tracking.unit_of(
         bed, [file for file in (board, lens) if file is not None], source
     )

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rich.console import Console, RenderableType
 
     from equipoise.model.step import Step
+    from equipoise.model.testbed import Testbed
 
 COMPILING = "compiling kernels, once"
 _DRAWN: list["_SignOfLife"] = []
@@ -53,6 +54,13 @@ def complain(sentence: str) -> None:
     if sys.stderr is not None:
         line = " ".join(sentence.split())
         stderr().print(Text.assemble(("equipoise:", "bold red"), f" {line}"))
+
+
+def announced(testbed: "Testbed") -> "Testbed":
+    """Return a testbed, having printed what reading it had to set right."""
+    for reason in testbed.mended:
+        stderr().print(f"~ {reason.sentence}", markup=False)
+    return testbed
 
 
 def agreed(question: str) -> bool:
