@@ -1,15 +1,20 @@
 """Findings: each fault that is put into a record is found, and a sound record has none."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.record_findings import findings
 from equipoise.assessment.record_checks.attitude_noise import attitude_noise
 from equipoise.assessment.record_checks.gyro_consistency import correlation, rate_pairs
 from equipoise.assessment.record_checks.rate_quality import rate_noise, step_of
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.devices import Lamp
+from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.testbed import Testbed
 
 DT = 0.02
 T = np.arange(3000) * DT
@@ -35,9 +40,9 @@ def recorded(gyro=lambda w: w, noise: float = 1e-3) -> Recording:
     )  # means between rows
 
 
-def said(recording: Recording, kind: str = "problem") -> str:
+def said(recording: Recording, kind: str = "problem", testbed: Testbed | None = None) -> str:
     """Return all sentences of a kind."""
-    return " ".join(f.sentence for f in findings(recording) if f.kind == kind)
+    return " ".join(f.sentence for f in findings(recording, testbed) if f.kind == kind)
 
 
 def test_a_sound_record_has_no_problem() -> None:
@@ -120,6 +125,27 @@ def test_moves_of_masses_are_reported_with_times_and_sizes() -> None:
     moves = [f for f in findings(recording) if f.sentence.startswith("mass ")]
     assert [f.span for f in moves] == [(1.0, 2.0)]
     assert "mass x1 moves from 0 to -10 mm" in moves[0].sentence
+
+
+def test_every_channel_is_reported() -> None:
+    """Of as many columns as each has; what a new one is called, somebody has to say."""
+    rows = {name: Samples(np.arange(6.0), np.ones((6, 1))) for name in CHANNELS[2:]}
+    record = Recording(*(Samples(T, c) for c in swing(np.random.default_rng(3))), **rows,
+                       mass_names=("x1",), device_names=("wheel:rw_x",))  # fmt: skip
+    reported = [f.sentence for f in content_findings(record)]
+    assert len([line for line in reported if " rows from " in line]) == len(CHANNELS)
+
+
+def test_a_lamp_that_nothing_counts_is_a_problem() -> None:
+    """Not where the testbed has it, a thermometer was read, or it is never switched."""
+    switch = Samples(np.array([0.0, 10.0]), np.array([[0.0], [1.0]]))
+    record = Recording(Samples(T, swing(np.random.default_rng(3))[0]), lamp=switch)
+    bed = read_preset("sputnix")
+    assert "the testbed file has no [lamp]" in said(record, "problem", bed)
+    assert "lamp" not in said(record, "problem", replace(bed, lamp=Lamp(3.0, 60.0)))
+    assert "lamp" not in said(replace(record, temperature=switch), "problem", bed)
+    steady = replace(switch, values=np.ones((2, 1)))
+    assert "lamp" not in said(replace(record, lamp=steady), "problem", bed)
 
 
 def test_devices_and_the_field_are_reported_and_unknown_names_listed() -> None:

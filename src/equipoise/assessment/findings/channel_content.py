@@ -6,24 +6,17 @@ from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import CHANNELS, Recording, Samples
 
 GAP = 3.0  # median intervals; chosen: one missed row makes 2, two make 3
 NAMED = 5  # gaps that are named one by one; chosen: a screen
+SPOKEN = {"momentum": "stored momentum", "torque": "known torque", "field": "magnetic field"}
 UNEVEN = 0.1  # of the median interval, as a robust scatter, before it is reported (chosen)
 
 
 def content_findings(recording: Recording) -> list[Finding]:
     """Return what was recorded, then the gaps of the sensors."""
-    named = (
-        ("attitude", recording.attitude),
-        ("rate", recording.rate),
-        ("masses", recording.masses),
-        ("stored momentum", recording.momentum),
-        ("known torque", recording.torque),
-        ("devices", recording.devices),
-        ("magnetic field", recording.field),
-    )
+    named = [(SPOKEN.get(name, name), getattr(recording, name)) for name in CHANNELS]
     parts = {"masses": recording.mass_names, "devices": recording.device_names}
     present = [(name, c) for name, c in named if c is not None and len(c)]
     absent = [name for name in ("attitude", "rate") if name not in dict(present)]

@@ -1,5 +1,7 @@
 """What a recording holds and what is wrong with it, as findings in the order of reading."""
 
+import numpy as np
+
 from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.mass_moves import move_findings
 from equipoise.assessment.findings.motion_range import motion_findings
@@ -32,6 +34,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *move_findings(recording),
         *flicker_findings(recording, testbed),
         *unknown_name_findings("device", recording.device_names, devices),
+        *lamp_findings(recording, testbed),
         *motion_findings(recording.attitude, up),
         *stop_findings(recording.attitude, testbed),
         *noise_findings(recording.attitude),
@@ -44,6 +47,15 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *(Finding("mended", (reason,)) for reason in (testbed.mended if testbed else ())),
         *(Finding("mended", one_reason(Why.SET_RIGHT, note)) for note in recording.notes),
     )
+
+
+def lamp_findings(recording: Recording, testbed: Testbed | None) -> list[Finding]:
+    """Return a problem for a lamp that is switched and whose warmth nothing counts."""
+    power = recording.lamp
+    if testbed is None or testbed.lamp is not None or recording.temperature is not None:
+        return []
+    is_switched = power is not None and bool(np.any(power.values != power.values[:1]))
+    return [Finding("problem", one_reason(Why.LAMP_NOT_COUNTED))] if is_switched else []
 
 
 def unknown_name_findings(

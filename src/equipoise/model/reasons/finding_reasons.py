@@ -21,6 +21,10 @@ class FindingReason(Code):
         "{0}: intervals scatter by {scatter:.2g} s about {interval:.3g} s.",
     )
     NOT_IN_TESTBED = "not_in_testbed", "{0} {1} is not in the testbed; {2}"
+    LAMP_NOT_COUNTED = (
+        "lamp_not_counted",
+        "the lamp is switched, but the testbed file has no [lamp]: its warmth is not counted.",
+    )
     INERTIA_PROJECTED = (
         "inertia_projected",
         "the testbed's inertia is no body's: its greatest principal moment, {greatest:.4g} kg m2, "
