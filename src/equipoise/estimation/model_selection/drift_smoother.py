@@ -38,9 +38,9 @@ from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.free_vertical import with_free_vertical
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.problem import Prior
-from equipoise.estimation.output_error.profile_likelihood import profiled
 from equipoise.estimation.output_error.segment_jumps import Jump, walk
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
+from equipoise.estimation.output_error.toward_stated import tried
 from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.parameters.fit_parameters import R, unknowns_of
 from equipoise.estimation.search_budget import Stage, cut_short
@@ -189,7 +189,7 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
     found = drifting(recording, testbed, params)
     try:
         plain = conclude(found.fitted, METHOD, recording)
-        concluded = profiled(plain, found.fitted, params.budget)
+        concluded = tried(plain, found.fitted, testbed, params.budget)
         concluded = cut_short(concluded, params.budget.unfinished)
         if not found.fitted.converged:
             return concluded

@@ -38,9 +38,9 @@ from equipoise.estimation.motion.unresolved_rates import without_unresolved_rate
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude, widening
 from equipoise.estimation.output_error.growing_horizon import at_rest
 from equipoise.estimation.output_error.outlier_rejection import without_outliers
-from equipoise.estimation.output_error.profile_likelihood import profiled
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
+from equipoise.estimation.output_error.toward_stated import tried
 from equipoise.estimation.output_error.trajectory import METHOD, Params
 from equipoise.estimation.search_budget import cut_short
 from equipoise.model.arrays import Floats
@@ -141,8 +141,8 @@ def surveyed(recording: Recording, testbed: Testbed, params: Params) -> RecordMo
     if few is not None:
         return surveyed_densely(few, recording, testbed, params)
     richer, fitted = plainly(recording, testbed, params)
-    testbed, fitted = anchored(recording, testbed, richer, fitted)
-    return survey(recording, testbed, richer, fitted)
+    nearer, fitted = anchored(recording, testbed, richer, fitted)
+    return replace(survey(recording, nearer, richer, fitted), stated=testbed)
 
 
 def check_sensors(recording: Recording, testbed: Testbed) -> None:
@@ -225,7 +225,7 @@ def as_if_finished(model: RecordModel, recording: Recording, params: Params) -> 
     """Return the same by what the search found, finished or not."""
     try:
         plain = conclude(model.fitted, METHOD, recording, model.coloured)
-        concluded = profiled(plain, model.fitted, params.budget)
+        concluded = tried(plain, model.fitted, model.stated, params.budget)
     except np.linalg.LinAlgError:  # of a search that was cut short
         return Estimate(METHOD, UNSETTLED, (), np.zeros((0, 0)))
     if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):

@@ -35,6 +35,7 @@ SDS = 2.0  # sd from the optimum
 LEAST = 0.5 * SDS**2  # chosen: of an interval too narrow by the root of two
 FEW = 30  # evaluations, chosen: from an optimum near by
 PART = Reason(Why.PART_UNOBSERVABLE)
+Flat = Mapping[str, tuple[float, float]]  # sd from the optimum, and rise of chi-square there
 
 
 def profiled(estimate: Estimate, fitted: Fitted, budget: Budget = UNLIMITED) -> Estimate:
@@ -44,7 +45,7 @@ def profiled(estimate: Estimate, fitted: Fitted, budget: Budget = UNLIMITED) -> 
     """
     if not estimate.outcome.usable:
         return estimate
-    sizes, flat = sizes_of(fitted), dict[str, float]()
+    sizes, flat = sizes_of(fitted), dict[str, tuple[float, float]]()
     within = replace(fitted, problem=replace(fitted.problem, budget=budget))
     for parameter in (*estimate.parameters, *estimate.ratios):
         if not is_wide(parameter, sizes):
@@ -53,7 +54,12 @@ def profiled(estimate: Estimate, fitted: Fitted, budget: Budget = UNLIMITED) -> 
             break
         least = least_rise(within, parameter)
         if least < LEAST:
-            flat[parameter.name] = least
+            flat[parameter.name] = (SDS, least)
+    return opened(estimate, flat)
+
+
+def opened(estimate: Estimate, flat: Flat) -> Estimate:
+    """Return the estimate without intervals that the misfit belies; the same if there is none."""
     if not flat:
         return estimate
     reasons = estimate.outcome.reasons
@@ -62,8 +68,9 @@ def profiled(estimate: Estimate, fitted: Fitted, budget: Budget = UNLIMITED) -> 
         parameters=without_intervals(estimate.parameters, flat),
         ratios=without_intervals(estimate.ratios, flat),
         unobservable=(*estimate.unobservable,
-                      *(Reason(Unobservable.MISFIT_FLAT, (name,), {"rise": least})
-                        for name, least in flat.items())),
+                      *(Reason(Unobservable.MISFIT_FLAT, (name,),
+                               {"sds": sds, "rise": rise, "due": sds**2})
+                        for name, (sds, rise) in flat.items())),
         outcome=Outcome(reasons if PART in reasons else (*reasons, PART)),
     )  # fmt: skip
 
@@ -77,9 +84,7 @@ def sizes_of(fitted: Fitted) -> dict[str, float]:
     return {name: value for name, value, known in columns if not known}
 
 
-def without_intervals(
-    parameters: tuple[Parameter, ...], flat: Mapping[str, float]
-) -> tuple[Parameter, ...]:
+def without_intervals(parameters: tuple[Parameter, ...], flat: Flat) -> tuple[Parameter, ...]:
     """Return parameters of which some are open."""
     return tuple(
         replace(p, sd=np.inf, observable=False) if p.name in flat else p for p in parameters

@@ -20,8 +20,8 @@ class Unobservable(Code):
     COMBINATION = "combination", "the data cannot separate: {names}"
     MISFIT_FLAT = (
         "misfit_flat",
-        "the data do not show {0}: two sd from its best value chi-square rises by {rise:.2g} only, "
-        "where an interval that holds has 4",
+        "the data do not show {0}: {sds:.2g} sd from its best value chi-square rises by {rise:.2g} "
+        "only, where an interval that holds has {due:.2g}",
     )
     TILT = (
         "tilt_open",
