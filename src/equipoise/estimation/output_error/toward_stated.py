@@ -64,7 +64,7 @@ def with_stated(problem: Problem, stated: Testbed) -> Problem:
     mean, weight = prior.mean.copy(), prior.weight.copy()
     mean[CORE], weight[CORE] = body.mean[CORE], body.weight[CORE]
     prior = replace(prior, mean=mean, weight=weight, held=fixed(problem))
-    return replace(problem, prior=prior, scale_open=False)
+    return replace(problem, prior=prior)
 
 
 def values_of(problem: Problem, point: Unknowns) -> dict[str, float]:
