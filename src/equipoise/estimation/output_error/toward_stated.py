@@ -6,7 +6,7 @@ point at which chi-square has risen by ``rise`` is within
     |x_i - x_i*| <= sd_i rise^(1/2)
 
 in every parameter, where that plane holds. So the optimum is sought once more with the testbed's
-body as prior, from the one that was found. It goes along what the record leaves open, which may
+body as prior, from the one that was found, as far as the budget allows. It goes along what the record leaves open, which may
 bend: where a number then is much farther away than the inequality allows, its interval is none.
 
 Cannot see what bends elsewhere than on the way to the stated body, nor anything if that is the one
@@ -46,7 +46,7 @@ def compared_with_stated(
     known = bool(np.all(prior.weight[CORE] > prior.anchor[CORE]))
     if known or not estimate.outcome.usable or not budget.allows(Stage.INTERVALS):
         return estimate
-    guided = with_stated(fitted.problem, stated)
+    guided = with_stated(replace(fitted.problem, budget=budget), stated)
     nearer = settle_pinned(guided, fitted.point, fitted.jumps, FEW)
     rise = 2.0 * (evaluate(fitted.problem, nearer.point, nearer.jumps).cost - cost_of(fitted))
     if not rise < FARTHEST:
