@@ -96,7 +96,7 @@ def test_measured_and_standing_masses_have_no_lag():
     d = 0.010 * smooth(t, 5, 2)
     read = d + 1e-6 * np.random.default_rng(0).normal(size=len(t))
     record = Samples(t, np.column_stack([read, 0 * d, d]))
-    assert command_columns(record, (X, Y, Z)) == ([1], [2])
+    assert command_columns(record, (X, Y, Z)) == ([1], [2], [])
     found = mass_errors(record, (X, Y, Z))
     lags = [j for j, name in enumerate(found.names) if name.startswith("mass_lag")]
     assert [pair for pair in found.owner.tolist() if pair[1] in lags] == [[2, 0]]
@@ -121,6 +121,19 @@ def test_a_log_in_steps_hides_a_sag_within_its_accuracy():
     assert mass_errors(track(HOME), (rounded,)).sag.tolist() == [0.6e-3]
     fine = replace(rounded, accuracy=1e-5)
     assert mass_errors(track(HOME), (fine,)).sag.tolist() == [0.0]
+
+
+def test_what_gives_way_where_nothing_travels_is_late_nobody_knows_by_how_much():
+    """Measured, 0.1 mm to and fro, slower than a travel; of one that travels, times are open."""
+    t = np.arange(0, 20, 0.02)
+    sways = 1e-4 * np.sin(t)
+    record = Samples(t, np.column_stack([sways, 0 * t, sways]))
+    assert command_columns(record, (X, Y, Z)) == ([1], [], [0, 2])
+    found = mass_errors(record, (X, Y, Z))
+    assert [name for name in found.names if name.startswith("mass_lag")] == ["mass_lag_1"]
+    assert found.sag.tolist() == [0.0, SAG, 0.0]
+    travels = Samples(t, np.column_stack([sways, 0 * t, 0.010 * smooth(t, 5, 2)]))
+    assert command_columns(travels, (X, Y, Z)) == ([1], [2], [])
 
 
 def test_at_once_and_stiff():

@@ -37,6 +37,7 @@ class CommandColumns(NamedTuple):
 
     standing: list[int]  # masses that were commanded to stay where they are
     travelling: list[int]
+    late: list[int]  # measured, and stamped nobody knows how late
 
 
 def is_command(d: Series1, travelling: Bools) -> bool:
@@ -46,21 +47,29 @@ def is_command(d: Series1, travelling: Bools) -> bool:
 
 
 def command_columns(track: Samples, masses: tuple[SlidingMass, ...]) -> CommandColumns:
-    """Return the masses with a lag or a sag whose columns are commands."""
-    found = CommandColumns([], [])
-    for i, mass in enumerate(masses):
-        if mass.lag_sd > 0 or mass.sag_sd > 0:
-            d = track.values[:, i]
-            travelling = is_travelling(track.t, d, mass.speed)
-            if is_command(d, travelling) or (mass.logged_late and travelling.any()):
-                (found.travelling if travelling.any() else found.standing).append(i)
+    """Return the masses with a lag or a sag whose columns are commands, or are stamped late.
+
+    A travel has times of its own. Where nothing travels, masses that give way to the motion are all
+    that moves, and its scale depends on when.
+    """
+    found, columns = CommandColumns([], [], []), track.values.T
+    ways = [is_travelling(track.t, d, m.speed) for d, m in zip(columns, masses, strict=True)]
+    rests = not any(travelling.any() for travelling in ways)
+    for i, (mass, d, travelling) in enumerate(zip(masses, columns, ways, strict=True)):
+        if mass.lag_sd == 0 and mass.sag_sd == 0:
+            continue
+        if is_command(d, travelling):
+            (found.travelling if travelling.any() else found.standing).append(i)
+        elif rests or (mass.logged_late and travelling.any()):
+            found.late.append(i)
     return found
 
 
 def kinds_of(commands: CommandColumns, masses: tuple[SlidingMass, ...]) -> dict[float, list[int]]:
-    """Return the masses that follow a command late, by the sd of their lag (s), for every kind."""
+    """Return the masses that are late, by the sd of their lag (s), for every kind."""
+    moving = sorted((*commands.travelling, *commands.late))
     return {
-        sd: [i for i in commands.travelling if masses[i].lag_sd == sd]
+        sd: [i for i in moving if masses[i].lag_sd == sd]
         for sd in sorted({mass.lag_sd for mass in masses if mass.lag_sd > 0})
     }
 

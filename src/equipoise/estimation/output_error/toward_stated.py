@@ -6,8 +6,9 @@ point at which chi-square has risen by ``rise`` is within
     |x_i - x_i*| <= sd_i rise^(1/2)
 
 in every parameter, where that plane holds. So the optimum is sought once more with the testbed's
-body as prior, from the one that was found, as far as the budget allows. It goes along what the record leaves open, which may
-bend: where a number then is much farther away than the inequality allows, its interval is none.
+body as prior, from the one that was found, as far as the budget allows. It goes along what the
+record leaves open, which may bend: where a number then is much farther away than the inequality
+allows, its interval is none.
 
 Cannot see what bends elsewhere than on the way to the stated body, nor anything if that is the one
 that was found, or where the prior is in use anyway.
