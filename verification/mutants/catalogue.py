@@ -177,8 +177,6 @@ ESTIMATION = _of(
      "statistical/test_siblings.py"),
     ("output_error/toward_stated.py", "abs(other - one) / parameter.sd",
      "abs(other - one)", "estimation/output_error/test_toward_stated.py"),
-    ("output_error/servo_sag_covariance.py", "hanging -= np.where", "hanging += np.where",
-     "estimation/output_error/test_servo_sag_covariance.py"),
     ("model_selection/lamp_response.py", "np.full(2, 2.0)", "np.full(2, 2e6)",
      "estimation/model_selection/test_undeclared_motion.py"),
     ("model_selection/lamp_response.py", "stated.time_constant * float(np.exp(shift))",

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.actuators.stops import MassError, is_rounded, is_travelling
+from equipoise.actuators.stops import MassError, is_travelling
 from equipoise.model.arrays import Bools, Floats, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -104,16 +104,14 @@ def lag_errors(t: Series1, track: Samples, kinds: dict[float, list[int]]) -> lis
 
 
 def sags(commands: CommandColumns, masses: tuple[SlidingMass, ...]) -> Floats:
-    """Return one sd of how far each mass hangs below what is logged, m.
+    """Return one sd of how far each mass hangs below its command, m.
 
-    A command does not show it, nor does a log in steps, within its accuracy.
+    None where nothing travels: then home is where the masses hang.
     """
-    commanded = {*commands.standing, *commands.travelling}
-    hanging = [i in commanded and not mass.logged_late for i, mass in enumerate(masses)]
-    return np.array([
-        max(mass.sag_sd if hangs else 0.0, mass.accuracy if is_rounded(mass) else 0.0)
-        for mass, hangs in zip(masses, hanging, strict=True)
-    ])  # fmt: skip
+    found = np.zeros(len(masses))
+    for i in (*commands.standing, *commands.travelling) if commands.travelling else ():
+        found[i] = 0.0 if masses[i].logged_late else masses[i].sag_sd
+    return found
 
 
 def logged_late(masses: tuple[SlidingMass, ...]) -> tuple[SlidingMass, ...]:

@@ -8,9 +8,7 @@ import pytest
 from equipoise.estimation.output_error.servo_sag_covariance import (
     by_sag,
     damping,
-    descent_by_sag,
     downward,
-    hangs_at_home,
     lateness,
 )
 from equipoise.estimation.output_error.solution import Fitted
@@ -32,7 +30,7 @@ from tests.support.builders import (
 
 END, MOVE = 120.0, move_at(60.0, 120.0)
 SAG, LATE = 2e-3, 0.04  # m, s
-DOWN, LEVEL = np.array([0.0, 0.0, -1.0]), np.array([1.0, 0.0, 0.0, 0.0])
+DOWN = np.array([0.0, 0.0, -1.0])
 
 
 def soft(sag: float = SAG, lag: float = LATE) -> Testbed:
@@ -125,31 +123,6 @@ def test_what_is_carried_is_what_sag_does_to_the_fit(stiff):
     carried = (added / np.outer(sd, sd))[core, core]
     assert np.abs(z).max() > 1.0
     assert np.sqrt(np.diag(carried)) == pytest.approx(np.abs(z), abs=0.1 * np.abs(z).max())
-
-
-def test_com_counts_how_masses_hang_on_the_mean_where_nothing_travels(stiff):
-    """Or where the log says that drives are stiff, and its steps hide what hangs."""
-    assert hangs_at_home(stiff.problem).tolist() == [False] * 3
-    standing = Samples(MOVE.t, 0 * MOVE.values + 0.01)
-    for bed, track in ((soft(), standing), (soft(sag=0.0), MOVE)):
-        record = replace(hung(0.0), masses=track)
-        found = fit(record, bed, Params())
-        assert hangs_at_home(found.problem).tolist() == [True] * 3
-
-
-def test_masses_that_hang_alike_all_along_add_nothing_where_nothing_travels():
-    """A platform at rest, its masses unlike each other: com is that with masses as they hang."""
-    bed, record = soft(), replace(hung(0.0), masses=Samples(MOVE.t, 0 * MOVE.values))
-    masses = tuple(replace(m, mass=m.mass * k) for k, m in enumerate(bed.masses, 1))
-    found = fit(record, replace(bed, masses=masses), Params())
-    moved = descent_by_sag(found, inverse_spd(found.at.normal))
-    assert moved is not None
-    rows = found.problem.observed
-    level = rows._replace(attitude=np.tile(LEVEL, (len(rows.attitude), 1)))
-    at_rest = replace(found, problem=replace(found.problem, observed=level))
-    still = descent_by_sag(at_rest, inverse_spd(found.at.normal))
-    assert still is not None
-    assert np.abs(still).max() < 1e-6 * np.abs(moved).max()
 
 
 def test_stiff_drives_add_nothing():

@@ -21,8 +21,6 @@ its energy):
 b(s) has the inertia, the momentum and the moment of masses that hang, and this damping. Where sag
 is sought, their first moment is taken back by rails beside theirs that have nothing else.
 
-Where nothing travels, com is found with the masses as they hang on the mean; the rest counts.
-
 All masses are taken to hang alike, each in proportion to its ``sag_sd``. Cannot see which part of
 a lag is the log's and not the drive's: all of it counts, and intervals are then too wide.
 """
@@ -31,7 +29,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.actuators.drive_errors import rails_of
 from equipoise.actuators.lags import LAG
 from equipoise.actuators.sliding_masses import MassMaps
 from equipoise.dynamics.rigid_body import KNOWN_D
@@ -40,7 +37,7 @@ from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted, evaluate
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import inverse_where
-from equipoise.model.arrays import Bools, Floats, Series1, Series3, Square, Vector3
+from equipoise.model.arrays import Floats, Series1, Series3, Square, Vector3
 from equipoise.model.torque_terms import GROUPS, TERMS
 
 VISCOUS = GROUPS["viscous"]
@@ -63,17 +60,6 @@ def downward(fitted: Fitted) -> Series3:
     down = -to_matrix(measurements.attitude)[:, 2, :]
     columns: list[Series1] = [np.interp(line.t, t, component) for component in down.T]
     return np.column_stack(columns)
-
-
-def hangs_at_home(problem: Problem) -> Bools:
-    """Say of which masses com counts how they hang on the mean: of all, where nothing travels.
-
-    Where a mass stands between the steps of its log is an unknown of its own.
-    """
-    rails = rails_of(problem.testbed.masses)
-    d = problem.line.known[:, KNOWN_D : KNOWN_D + len(rails)]
-    stiff = np.array([rail.sag_sd == 0 for rail in rails], dtype=bool)
-    return stiff | (not np.any(np.ptp(d, axis=0)))
 
 
 def hanging_in(problem: Problem, hanging: Floats) -> Problem:
@@ -134,7 +120,6 @@ def descent_by_sag(fitted: Fitted, covariance: Square) -> Floats | None:
     more = damping(problem, n.mean(axis=0), sag, lateness(fitted, covariance))
     taken_up, rest = descent_by_damping(fitted, more)
     hanging = n @ axes.T * sag
-    hanging -= np.where(hangs_at_home(problem), hanging.mean(axis=0), 0.0)
 
     def descent(part: float) -> Floats:
         torque = fitted.point.torque.copy()
