@@ -53,4 +53,4 @@ def temperature_of(recording: Recording, testbed: Testbed) -> Samples | None:
 def warms(recording: Recording, testbed: Testbed) -> bool:
     """Say whether it is known to have become warmer or cooler."""
     rows = temperature_of(recording, testbed)
-    return rows is not None and bool(np.any(rows.values != rows.values[:1]))
+    return rows is not None and rows.varies

@@ -41,6 +41,11 @@ class Samples:
         return Samples(self.t[keep], self.values[keep])
 
     @property
+    def varies(self) -> bool:
+        """Say whether any row differs from the first."""
+        return bool(np.any(self.values != self.values[:1]))
+
+    @property
     def period(self) -> float:
         """Return the median time from a row to the next, s; there must be two rows.
 

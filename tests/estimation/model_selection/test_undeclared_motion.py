@@ -58,16 +58,21 @@ def moving(seed: int, spin: float, course):
     return known, way, record, case.testbed
 
 
+def check_found(found, terms, coefficients, com):
+    """Coefficients and com are within 4 sd, and nothing is an event."""
+    names = (*terms, *COM)
+    truth = np.concatenate([coefficients, com])
+    sd = np.sqrt(np.diag(found.covariance_of(names)))
+    assert np.abs((found.values(names) - truth) / sd).max() < 4.0
+    assert not found.events
+
+
 @pytest.mark.parametrize("spin", [0.0, SPIN])
 def test_a_drift_is_found_and_its_declaration_stated(spin):
     """1 um/min for four minutes, at rest or spinning: within 4 sd, com too; nothing is an event."""
     platform, way, record, testbed = moving(0, spin, drift)
     found = estimate(record, testbed, Params())
-    names = (*GROUPS["drift"], *COM)
-    truth = np.concatenate([DRIFT * way, platform.com])
-    sd = np.sqrt(np.diag(found.covariance_of(names)))
-    assert np.abs((found.values(names) - truth) / sd).max() < 4.0
-    assert not found.events
+    check_found(found, GROUPS["drift"], DRIFT * way, platform.com)
     (reason,) = [r for r in found.outcome.reasons if r.code is Why.TERMS_TO_DECLARE]
     assert reason.parameters == ("drift",)
     assert "[disturbance] consider in the testbed file: drift" in reason.sentence
@@ -85,11 +90,7 @@ def test_a_lamps_warmth_is_found_by_the_recorded_temperature(spin):
     """3 um in minutes, of a lamp that goes on at 40 s: within 4 sd, com too; no events."""
     platform, way, record, testbed = moving(0, spin, lambda t: THERMAL * warmth(t))
     found = estimate(replace(record, temperature=thermometer(0.0)), testbed, Params())
-    names = (*GROUPS["thermal"], *COM)
-    truth = np.concatenate([THERMAL * way, platform.com])
-    sd = np.sqrt(np.diag(found.covariance_of(names)))
-    assert np.abs((found.values(names) - truth) / sd).max() < 4.0
-    assert not found.events
+    check_found(found, GROUPS["thermal"], THERMAL * way, platform.com)
     end = np.array([found.values((name,))[0] for name in END])
     moved = com_shift(mass_maps(testbed.masses), platform.mass, MOVE)
     np.testing.assert_allclose(
@@ -112,11 +113,7 @@ def test_a_lamps_warmth_is_found_by_its_switch(spin, stated):
     """However wrong its time constant is stated: found within a tenth; com as by a thermometer."""
     platform, way, record, testbed = moving(0, spin, lambda t: THERMAL * warmth(t))
     found = estimate(*lamp_at(stated, record, testbed), Params())
-    names = (*GROUPS["thermal"], *COM)
-    truth = np.concatenate([THERMAL * way, platform.com])
-    sd = np.sqrt(np.diag(found.covariance_of(names)))
-    assert np.abs((found.values(names) - truth) / sd).max() < 4.0
-    assert not found.events
+    check_found(found, GROUPS["thermal"], THERMAL * way, platform.com)
     (reason,) = [r for r in found.outcome.reasons if r.code is Why.LAMP_RESPONSE]
     assert reason.numbers["found"] == pytest.approx(SLOW, rel=0.1)
     assert reason.numbers["stated"] == stated

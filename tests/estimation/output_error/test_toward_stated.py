@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
+from equipoise.estimation.output_error.profile_likelihood import values_of
 from equipoise.estimation.output_error.solution import cost_of, evaluate
 from equipoise.estimation.output_error.toward_stated import (
     FARTHER,
     compared_with_stated,
     sds_between,
-    values_of,
     with_stated,
 )
 from equipoise.estimation.output_error.trajectory import Params, fit

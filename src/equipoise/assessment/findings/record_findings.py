@@ -1,7 +1,5 @@
 """What a recording holds and what is wrong with it, as findings in the order of reading."""
 
-import numpy as np
-
 from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.mass_moves import move_findings
 from equipoise.assessment.findings.motion_range import motion_findings
@@ -54,7 +52,7 @@ def lamp_findings(recording: Recording, testbed: Testbed | None) -> list[Finding
     power = recording.lamp
     if testbed is None or testbed.lamp is not None or recording.temperature is not None:
         return []
-    is_switched = power is not None and bool(np.any(power.values != power.values[:1]))
+    is_switched = power is not None and power.varies
     return [Finding("problem", one_reason(Why.LAMP_NOT_COUNTED))] if is_switched else []
 
 

@@ -21,7 +21,7 @@ import numpy as np
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted, cost_of
-from equipoise.estimation.parameters.fit_parameters import CORE, physical
+from equipoise.estimation.parameters.fit_parameters import CORE, Unknowns, physical
 from equipoise.estimation.parameters.observability import natural_sizes
 from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.model.estimate import BODY, Estimate, Parameter
@@ -115,12 +115,18 @@ def held_at(problem: Problem, values: Mapping[str, float]) -> Problem:
     return replace(problem, prior=replace(prior, mean=mean, held=held), scale_open=False)
 
 
+def values_of(problem: Problem, point: Unknowns) -> dict[str, float]:
+    """Return inertia and centre of mass at a point, by name."""
+    values = physical(point, problem.mass, problem.layout)
+    return dict(zip(BODY, values[CORE].tolist(), strict=True))
+
+
 def end_of(fitted: Fitted, parameter: Parameter, away: float) -> dict[str, float]:
     """Return what is held where a parameter is ``away`` from its value: of a ratio, both."""
     problem = fitted.problem
     names = parameter.name.split("/")
-    values = physical(fitted.point, problem.mass, problem.layout)
-    found = {name: float(values[problem.layout.names.index(name)]) for name in names}
+    here = values_of(problem, fitted.point)
+    found = {name: here[name] for name in names}
     size = found[names[1]] if len(names) > 1 else 1.0
     return found | {names[0]: found[names[0]] + away * size}
 

@@ -20,11 +20,16 @@ import numpy as np
 
 from equipoise.estimation.output_error.fixed_parameters import fixed, settle_pinned
 from equipoise.estimation.output_error.problem import Problem, prior_of
-from equipoise.estimation.output_error.profile_likelihood import opened, profiled
+from equipoise.estimation.output_error.profile_likelihood import (
+    opened,
+    profiled,
+    sizes_of,
+    values_of,
+)
 from equipoise.estimation.output_error.solution import Fitted, cost_of, evaluate
-from equipoise.estimation.parameters.fit_parameters import CORE, Unknowns, physical
+from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
-from equipoise.model.estimate import BODY, Estimate, Parameter
+from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.testbed import Testbed
 
 FARTHER = 1.5  # chosen: times what the inequality allows; a record that is sound is within 1.3
@@ -43,9 +48,7 @@ def compared_with_stated(
     estimate: Estimate, fitted: Fitted, stated: Testbed, budget: Budget = UNLIMITED
 ) -> Estimate:
     """Return the estimate without intervals that a body nearer to the stated one belies."""
-    prior = fitted.problem.prior
-    known = bool(np.all(prior.weight[CORE] > prior.anchor[CORE]))
-    if known or not estimate.outcome.usable or not budget.allows(Stage.INTERVALS):
+    if not sizes_of(fitted) or not estimate.outcome.usable or not budget.allows(Stage.INTERVALS):
         return estimate
     guided = with_stated(replace(fitted.problem, budget=budget), stated)
     nearer = settle_pinned(guided, fitted.point, fitted.jumps, FEW)
@@ -66,14 +69,6 @@ def with_stated(problem: Problem, stated: Testbed) -> Problem:
     mean[CORE], weight[CORE] = body.mean[CORE], body.weight[CORE]
     prior = replace(prior, mean=mean, weight=weight, held=fixed(problem))
     return replace(problem, prior=prior)
-
-
-def values_of(problem: Problem, point: Unknowns) -> dict[str, float]:
-    """Return inertia and centre of mass at a point, by name."""
-    values = dict(
-        zip(problem.layout.names, physical(point, problem.mass, problem.layout), strict=True)
-    )
-    return {name: float(values[name]) for name in BODY}
 
 
 def sds_between(parameter: Parameter, here: dict[str, float], there: dict[str, float]) -> float:
