@@ -103,13 +103,24 @@ def test_measured_and_standing_masses_have_no_lag():
     assert found.sag.tolist() == [0, SAG, SAG]
 
 
-@pytest.mark.parametrize("record", [None, track(HOME), Samples(np.zeros(0), np.zeros((0, 1)))])
-def test_a_record_without_mass_travel_yields_no_lag(record):
-    """No record, no travel, no row: no lag; home is where the mass hangs."""
+NO_ROW = Samples(np.zeros(0), np.zeros((0, 1)))
+
+
+@pytest.mark.parametrize(("record", "sag"), [(None, 0.0), (track(HOME), SAG), (NO_ROW, 0.0)])
+def test_a_record_without_mass_travel_yields_no_lag(record, sag):
+    """No record, no travel, no row: no lag; a mass at home hangs on its drive all the same."""
     found = mass_errors(record, (X,))
     assert found.names == ()
     assert found.response is None
-    assert not np.any(found.sag)
+    assert found.sag.sum() == sag
+
+
+def test_a_log_in_steps_hides_a_sag_within_its_accuracy():
+    """Measured in steps of 2 mm: 0.6 mm of whatever is hidden; one that is fine hides nothing."""
+    rounded = replace(X, resolution=2e-3, accuracy=0.6e-3, lag_sd=0.0, sag_sd=0.0)
+    assert mass_errors(track(HOME), (rounded,)).sag.tolist() == [0.6e-3]
+    fine = replace(rounded, accuracy=1e-5)
+    assert mass_errors(track(HOME), (fine,)).sag.tolist() == [0.0]
 
 
 def test_what_gives_way_where_nothing_travels_is_late_nobody_knows_by_how_much():
@@ -120,6 +131,7 @@ def test_what_gives_way_where_nothing_travels_is_late_nobody_knows_by_how_much()
     assert command_columns(record, (X, Y, Z)) == ([1], [], [0, 2])
     found = mass_errors(record, (X, Y, Z))
     assert [name for name in found.names if name.startswith("mass_lag")] == ["mass_lag_1"]
+    assert found.sag.tolist() == [0.0, SAG, 0.0]
     travels = Samples(t, np.column_stack([sways, 0 * t, 0.010 * smooth(t, 5, 2)]))
     assert command_columns(travels, (X, Y, Z)) == ([1], [2], [])
 

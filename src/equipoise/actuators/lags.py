@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.actuators.stops import MassError, is_travelling
+from equipoise.actuators.stops import MassError, is_rounded, is_travelling
 from equipoise.model.arrays import Bools, Floats, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -46,21 +46,26 @@ def is_command(d: Series1, travelling: Bools) -> bool:
     return bool(np.count_nonzero(at_rest) <= CREEPS * len(at_rest))
 
 
+def rests(track: Samples, masses: tuple[SlidingMass, ...]) -> bool:
+    """Say whether no mass travels."""
+    columns = zip(track.values.T, masses, strict=True)
+    return not any(is_travelling(track.t, d, mass.speed).any() for d, mass in columns)
+
+
 def command_columns(track: Samples, masses: tuple[SlidingMass, ...]) -> CommandColumns:
     """Return the masses with a lag or a sag whose columns are commands, or are stamped late.
 
     A travel has times of its own. Where nothing travels, masses that give way to the motion are all
     that moves, and its scale depends on when.
     """
-    found, columns = CommandColumns([], [], []), track.values.T
-    ways = [is_travelling(track.t, d, m.speed) for d, m in zip(columns, masses, strict=True)]
-    rests = not any(travelling.any() for travelling in ways)
-    for i, (mass, d, travelling) in enumerate(zip(masses, columns, ways, strict=True)):
+    found, at_rest = CommandColumns([], [], []), rests(track, masses)
+    for i, (mass, d) in enumerate(zip(masses, track.values.T, strict=True)):
         if mass.lag_sd == 0 and mass.sag_sd == 0:
             continue
+        travelling = is_travelling(track.t, d, mass.speed)
         if is_command(d, travelling):
             (found.travelling if travelling.any() else found.standing).append(i)
-        elif rests or (mass.logged_late and travelling.any()):
+        elif at_rest or (mass.logged_late and travelling.any()):
             found.late.append(i)
     return found
 
@@ -103,14 +108,16 @@ def lag_errors(t: Series1, track: Samples, kinds: dict[float, list[int]]) -> lis
     ]
 
 
-def sags(commands: CommandColumns, masses: tuple[SlidingMass, ...]) -> Floats:
-    """Return one sd of how far each mass hangs below its command, m.
+def sags(track: Samples, masses: tuple[SlidingMass, ...]) -> Floats:
+    """Return one sd of how far each mass hangs below what is logged, m.
 
-    None where nothing travels: then home is where the masses hang.
+    A command does not show it. Nor does, within its accuracy, a log in steps of masses that rest.
     """
-    found = np.zeros(len(masses))
-    for i in (*commands.standing, *commands.travelling) if commands.travelling else ():
+    commands, found = command_columns(track, masses), np.zeros(len(masses))
+    for i in (*commands.standing, *commands.travelling):
         found[i] = 0.0 if masses[i].logged_late else masses[i].sag_sd
+    if rests(track, masses):
+        found = np.maximum(found, [m.accuracy if is_rounded(m) else 0.0 for m in masses])
     return found
 
 

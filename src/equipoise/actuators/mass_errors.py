@@ -23,7 +23,15 @@ from equipoise.actuators.drive_errors import (
     plays,
     rails_of,
 )
-from equipoise.actuators.lags import LAG, command_columns, kinds_of, lag_errors, lag_times, sags
+from equipoise.actuators.lags import (
+    LAG,
+    command_columns,
+    kinds_of,
+    lag_errors,
+    lag_times,
+    rests,
+    sags,
+)
 from equipoise.actuators.lost_motion import command_times
 from equipoise.actuators.stops import MassError, stop_errors
 from equipoise.actuators.travel_errors import (
@@ -47,7 +55,8 @@ class MassErrors:
     owner: Ints  # (f, 2) index of the rail along which it acts, and of the unknown
     sd: Floats  # (e,) in the units of ``unit_of``
     names: tuple[str, ...]
-    sag: Floats  # (rails,) m, one sd of how far a mass hangs below a command, rail upright
+    sag: Floats  # (rails,) m, one sd of how far a mass hangs below its log, rail upright
+    at_rest: bool  # no mass travels
 
 
 def unit_of(name: str) -> str:
@@ -80,7 +89,8 @@ def mass_errors(
     are as recorded.
     """
     if track is None or not len(track):
-        return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
+        none = np.zeros(0)
+        return MassErrors(None, np.zeros((0, 2), dtype=np.int64), none, (), none, at_rest=True)
     commands = command_columns(track, masses)
     kinds = kinds_of(commands, masses)
     late = lag_times(track, [sd for sd, kind in kinds.items() if kind])
@@ -100,5 +110,6 @@ def mass_errors(
         np.array(pairs, dtype=np.int64).reshape(-1, 2),
         np.array([each.sd for each in found]),
         tuple(each.name for each in found),
-        np.append(sags(commands, masses), np.zeros(len(rails_of(masses)) - len(masses))),
+        np.append(sags(track, masses), np.zeros(len(rails_of(masses)) - len(masses))),
+        rests(track, masses),
     )

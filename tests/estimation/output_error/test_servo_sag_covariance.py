@@ -13,9 +13,9 @@ from equipoise.estimation.output_error.servo_sag_covariance import (
 )
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import Params, fit
-from equipoise.estimation.parameters.fit_parameters import physical
+from equipoise.estimation.parameters.fit_parameters import JP, R, physical
 from equipoise.maths.attitude import to_matrix
-from equipoise.maths.linalg import inverse_spd
+from equipoise.maths.linalg import inverse_spd, inverse_where
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from tests.support.builders import (
@@ -29,6 +29,7 @@ from tests.support.builders import (
 )
 
 END, MOVE = 120.0, move_at(60.0, 120.0)
+AT_HOME = Samples(np.array([0.0, END]), np.zeros((2, 3)))
 SAG, LATE = 2e-3, 0.04  # m, s
 DOWN = np.array([0.0, 0.0, -1.0])
 
@@ -43,22 +44,22 @@ def soft(sag: float = SAG, lag: float = LATE) -> Testbed:
     return replace(bed, masses=masses, attitude=camera, gyro=gyro)
 
 
-def hung(sag: float) -> Recording:
+def hung(sag: float, commands: Samples = MOVE) -> Recording:
     """The rows of masses that hang by ``sag`` and are late, and their commands.
 
     Where they hang follows the motion of masses that do not: the difference is of second order.
     """
     t = np.arange(int(END / 0.02) + 1) * 0.02
-    late = np.column_stack([np.interp(t - LATE, MOVE.t, d) for d in MOVE.values.T])
+    late = np.column_stack([np.interp(t - LATE, commands.t, d) for d in commands.values.T])
     line = line_of(t, Samples(t, late))
     down = -to_matrix(travel(line).q[np.searchsorted(line.t, t - 1e-9)])[:, 2, :]
     hanging = sag * np.column_stack([np.interp(t - LATE, t, n) for n in down.T])
     observed = recording(END, Samples(t, late + hanging), gyro=20.0)
-    return replace(observed, masses=MOVE)
+    return replace(observed, masses=commands)
 
 
-def fitted(sag: float, bed: Testbed) -> Fitted:
-    found = fit(hung(sag), bed, Params())
+def fitted(sag: float, bed: Testbed, commands: Samples = MOVE) -> Fitted:
+    found = fit(hung(sag, commands), bed, Params())
     assert found.converged
     return found
 
@@ -123,6 +124,25 @@ def test_what_is_carried_is_what_sag_does_to_the_fit(stiff):
     carried = (added / np.outer(sd, sd))[core, core]
     assert np.abs(z).max() > 1.0
     assert np.sqrt(np.diag(carried)) == pytest.approx(np.abs(z), abs=0.1 * np.abs(z).max())
+
+
+def test_where_nothing_travels_masses_that_hang_move_no_com_but_the_shape_of_the_body():
+    """com is theirs as they hang; J_zz/J_xx against the fit of masses that hang by 2 mm."""
+    stiff, there = (fitted(sag, soft(), AT_HOME) for sag in (0.0, SAG))
+    covariance = inverse_where(stiff.at.normal, ~stiff.problem.prior.held)
+    added = by_sag(stiff, covariance)
+    assert not added[R].any()
+    fits = (stiff, there)
+    before, after = (physical(f.point, f.problem.mass, f.problem.layout)[JP] for f in fits)
+    slope = np.array([-before[2] / before[0] ** 2, 0.0, 1 / before[0], 0.0, 0.0, 0.0])
+    moved = after[2] / after[0] - before[2] / before[0]
+    assert np.sqrt(slope @ added[JP, JP] @ slope) == pytest.approx(abs(moved), rel=0.1)
+
+
+def test_a_mass_that_stands_is_as_late_as_stated():
+    """A drive's lag that no travel shows."""
+    found = fitted(0.0, soft(), AT_HOME)
+    assert lateness(found, inverse_spd(found.at.normal)).tolist() == [LATE] * 3
 
 
 def test_stiff_drives_add_nothing():

@@ -21,6 +21,9 @@ its energy):
 b(s) has the inertia, the momentum and the moment of masses that hang, and this damping. Where sag
 is sought, their first moment is taken back by rails beside theirs that have nothing else.
 
+Where no mass travels, com is that of the platform as its masses hang: there dx of com is another
+com, not an error of it. dx of J counts.
+
 All masses are taken to hang alike, each in proportion to its ``sag_sd``. Cannot see which part of
 a lag is the log's and not the drive's: all of it counts, and intervals are then too wide.
 """
@@ -29,12 +32,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from equipoise.actuators.drive_errors import rails_of
 from equipoise.actuators.lags import LAG
 from equipoise.actuators.sliding_masses import MassMaps
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.output_error.input_errors import STEP
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted, evaluate
+from equipoise.estimation.parameters.fit_parameters import R
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import inverse_where
 from equipoise.model.arrays import Floats, Series1, Series3, Square, Vector3
@@ -79,9 +84,9 @@ def hanging_in(problem: Problem, hanging: Floats) -> Problem:
 
 
 def lateness(fitted: Fitted, covariance: Square) -> Floats:
-    """Return the rms of how late each mass may be, s, (k,): 0 where no lag is sought."""
+    """Return the rms of how late each mass may be, s, (k,): as stated where no lag is sought."""
     errors, layout = fitted.problem.errors, fitted.problem.layout
-    late = np.zeros(len(errors.sag))
+    late = np.array([rail.lag_sd for rail in rails_of(fitted.problem.testbed.masses)])
     for mass, j in errors.owner:
         if errors.names[j].startswith(LAG):
             at = layout.mass_errors.start + j
@@ -140,4 +145,6 @@ def by_sag(fitted: Fitted, covariance: Square) -> Square:
     if moved is None:
         return np.zeros_like(covariance)
     shift = inverse_where(fitted.at.normal, ~fitted.problem.prior.held) @ moved
+    if fitted.problem.errors.at_rest:
+        shift[R] = 0.0
     return np.outer(shift, shift)
