@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.estimation.model_selection.term_support import is_supported, support
+from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.torque_terms import GROUPS, typical
 from tests.support.outcomes import of_use
@@ -45,3 +47,14 @@ def test_no_number_no_use_and_no_terms_are_not_supported():
     assert not is_supported(estimate_of((np.nan, 0.0, 0.0), 0.25), DRIFT)
     assert not is_supported(estimate_of((9.0, 9.0, 9.0), 0.25, usable=False), DRIFT)
     assert not is_supported(estimate_of((9.0, 9.0, 9.0), 0.25), ())
+
+
+GROUPS_OF_ALL = [*sensor_terms.GROUPS.items(), *torque_terms.GROUPS.items()]
+
+
+@pytest.mark.parametrize(("group", "terms"), GROUPS_OF_ALL, ids=[g for g, _ in GROUPS_OF_ALL])
+def test_what_was_added_is_named_by_its_group(group, terms):
+    """A gyro's scale and its cross-coupling are different things; both were 'gyro'."""
+    first, *to_declare = reasons_of_added(terms)
+    assert first.parameters == (group,)
+    assert [r.parameters for r in to_declare] == [(group,)] * (group in torque_terms.GROUPS)

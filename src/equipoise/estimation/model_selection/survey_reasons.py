@@ -25,6 +25,12 @@ IMPLAUSIBLE = 4.0  # sd of real sensors' errors, chosen
 LEANS = 4.0  # sd, chosen: a smaller lean is corrected unreported
 DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which gravity's shows too little
 CLOCK = sensor_terms.GROUPS[sensor_terms.GYRO_CLOCK]
+GROUP_OF = {
+    term: group
+    for groups in (sensor_terms.GROUPS, torque_terms.GROUPS)
+    for group, terms in groups.items()
+    for term in terms
+}
 
 
 def noise_reasons(model: RecordModel) -> list[Reason]:
@@ -55,7 +61,7 @@ def term_reasons(model: RecordModel, requested: Params) -> tuple[Reason, ...]:
 
 def reasons_of_added(terms: tuple[str, ...]) -> tuple[Reason, ...]:
     """Return that these terms were added, and which of them a testbed file can declare."""
-    groups = tuple(dict.fromkeys(term.split("_")[0] for term in terms))
+    groups = tuple(dict.fromkeys(GROUP_OF[term] for term in terms))
     torques = tuple(group for group in groups if group in torque_terms.GROUPS)
     found = (Reason(Why.TERMS_ADDED, groups),) if groups else ()
     return (*found, Reason(Why.TERMS_TO_DECLARE, torques)) if torques else found
