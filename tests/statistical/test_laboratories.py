@@ -5,8 +5,8 @@ import pytest
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
 from equipoise.estimation.model_selection.initial_model import DAMPING, plainly
+from equipoise.estimation.model_selection.model_search import is_drowned
 from equipoise.estimation.model_selection.reference_fit import surveyed
-from equipoise.estimation.model_selection.survey import is_drowned
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.procedure.steps.clean_record import sound
 from tests.support import thorough

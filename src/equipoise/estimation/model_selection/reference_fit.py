@@ -20,7 +20,8 @@ from equipoise.estimation.model_selection.decimation import condensed, with_few_
 from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
 from equipoise.estimation.model_selection.lamp_response import with_response
-from equipoise.estimation.model_selection.survey import MOST_EVENTS, is_calm, survey
+from equipoise.estimation.model_selection.model_search import MOST_EVENTS, is_calm
+from equipoise.estimation.model_selection.survey import survey
 from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
     clock_reasons,
