@@ -2,7 +2,7 @@
 
     turn(t, t + D) / D = 1/D int w(s - lag) ds + zero        least squares in the lag and the zero
 
-The turn between two attitudes is compared with the integral of the gyro, as in ``gyro_agreement``.
+The turn between two attitudes is compared with the integral of the gyro (``gyro_consistency``).
 A camera that is ``lag`` seconds late shows at t what the gyro showed at t - lag. Only motion whose
 rate changes shows it. The sd is that of the fit, with the correlation that two turns have by the
 attitude that they share. Middles of averaging windows count as the moments of rows.
