@@ -7,10 +7,11 @@ mean, and a turn at the rate w (rad/s) between them,
 
 to second order in |w| T / 4 (at 280 deg/s and 0.1 s T comes out 0.04 % short). The lengths show how
 wide the window is, not where in it the row is stamped: that is a delay, which a record of free
-motion does not show and one with a gyro does (``gyro_consistency``). Rows that were normalised before
-they were written show nothing. Taken as moments, such rows show a motion of the angular frequency W
-smaller by W^2 T^2 / 24; that is given for a motion as fast as the platform turns. Inertia fitted to
-them is off by about as much: once to twice, in simulated spins at 100 and 200 deg/s.
+motion does not show and one with a gyro does (``gyro_consistency``). Rows that were normalised
+before they were written show nothing. Taken as moments, such rows show a motion of the angular
+frequency W smaller by W^2 T^2 / 24; that is given for a motion as fast as the platform turns.
+Inertia fitted to them is off by about as much: once to twice, in simulated spins at 100 and 200
+deg/s.
 """
 
 from dataclasses import dataclass, replace

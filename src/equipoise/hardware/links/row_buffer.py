@@ -1,7 +1,8 @@
 """What a bench has received, row by row, and as recordings.
 
 A position is kept where it changes: of masses that stand, the first and the last answer, and one
-a second between; of masses that go, each answer and where they started or stopped (``mass_interpolation``).
+a second between; of masses that go, each answer and where they started or stopped
+(``mass_interpolation``).
 """
 
 from collections.abc import Mapping, Sequence
