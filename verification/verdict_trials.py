@@ -18,10 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 import equipoise
-from equipoise.assessment.metrics.torque_range import torque_in_range
 from equipoise.dynamics.sag_trim import residual_torque
 from equipoise.io.testbed.presets import read_preset
-from equipoise.maths.gaussian_length import bounded_length
 from equipoise.model import criterion
 from equipoise.model.criterion import BALANCED as CENTRED
 from equipoise.model.criterion import DESIGN, HELD, OFFSET, TORQUE, Criterion, VerdictOutcome
@@ -30,7 +28,13 @@ from equipoise.planning.sizing.budget import Budget, budget_of, mean_square
 from equipoise.planning.sizing.expected_torque import expected_torque
 from equipoise.planning.sizing.limits import ENOUGH
 from equipoise.planning.sizing.limits import verdict as design_verdict
-from equipoise.procedure.identification.assess import AssessOptions, answers_of, fit_of, pull_of
+from equipoise.procedure.identification.assess import (
+    AssessOptions,
+    answers_of,
+    bounds_of,
+    fit_of,
+    pull_of,
+)
 from equipoise.procedure.steps.tilt_guard import guarded
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.study.law_run import law_run
@@ -112,9 +116,7 @@ def requirement(criterion_of: Criterion, seed: int) -> Judged:
     bench = SimulatedBench(bed, seed)
     requested = AssessOptions(require_torque=limit, require_offset=size / multiple)
     estimate, spread = fit_of(hanging_record(bench), bed, requested)
-    pull = pull_of(*spread)
-    off = bounded_length(pull.mean[:3], pull.covariance[:3, :3], np.eye(3), pull.unscaled[:3, :3])
-    found = answers_of(requested, torque_in_range(pull, bed.weight, bed.up, tilt), off)
+    found = answers_of(requested, *bounds_of(requested, pull_of(*spread), bed))
     com = bench.truth().com
     true = (torque(com) <= limit, bool(np.linalg.norm(com) <= size / multiple))
     k = (TORQUE, OFFSET).index(criterion_of)

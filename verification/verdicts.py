@@ -18,11 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import binom
 
-from equipoise.assessment.metrics.torque_range import torque_in_range
 from equipoise.dynamics.sag_trim import residual_torque
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import to_matrix
-from equipoise.maths.gaussian_length import bounded_length
 from equipoise.model.estimate import COM
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
@@ -31,6 +29,7 @@ from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.identification.assess import (
     AssessOptions,
     answers_of,
+    bounds_of,
     fit_of,
     pull_of,
 )
@@ -86,15 +85,9 @@ def judged(job: tuple[int, float | None]) -> Answer:
     record = guarded(bench, SECONDS)
     requested = AssessOptions(require_torque=torque, require_offset=distance)
     estimated = fit_of(record, bed, requested)
-    pull = pull_of(*estimated[1])
-    weight = bed.weight
-    found = answers_of(
-        requested,
-        torque_in_range(pull, weight, bed.up, requested.tilt),
-        bounded_length(pull.mean, pull.covariance, np.eye(3), pull.unscaled),
-    )
+    found = answers_of(requested, *bounds_of(requested, pull_of(*estimated[1]), bed))
     true = bench.truth().com
-    beyond = weight * residual_torque(true, np.zeros((3, 3)), bed.up, requested.tilt) > torque
+    beyond = bed.weight * residual_torque(true, np.zeros((3, 3)), bed.up, requested.tilt) > torque
     if not estimated[0].outcome.usable:
         return Answer((beyond, beyond), (UNDECIDED, UNDECIDED))
     distant = bool(np.linalg.norm(true) > distance)

@@ -146,9 +146,7 @@ def assessment_of(
     metrics = swing_metrics(*sound(recording, testbed), damping_of(estimate))
     checks = checks_of(estimate, pull, metrics, testbed.weight)
     estimate = checked(estimate, checks)
-    off = pull.mean[:3] - options.target
-    torque = torque_in_range(pull, testbed.weight, testbed.up, options.tilt)
-    offset = bounded_length(off, pull.covariance[:3, :3], np.eye(3), pull.unscaled[:3, :3])
+    torque, offset = bounds_of(options, pull, testbed)
     return Assessment(
         testbed,
         recording,
@@ -202,6 +200,13 @@ def inertia_doubt(parameters: tuple[Parameter, ...], covariance: Square) -> floa
     moments = [k for k, parameter in enumerate(parameters) if parameter.name in INERTIA[:3]]
     largest = max(moments, key=lambda k: parameters[k].value)
     return float(np.sqrt(covariance[largest, largest])) / parameters[largest].value
+
+
+def bounds_of(options: AssessOptions, pull: Pull, testbed: Testbed) -> tuple[InRange, Bounded]:
+    """Return gravity's torque over the range of tilts, and how far com is from its target."""
+    off = pull.mean[:3] - options.target
+    offset = bounded_length(off, pull.covariance[:3, :3], np.eye(3), pull.unscaled[:3, :3])
+    return torque_in_range(pull, testbed.weight, testbed.up, options.tilt), offset
 
 
 def answers_of(options: AssessOptions, torque: InRange, offset: Bounded) -> tuple[Judged, ...]:
