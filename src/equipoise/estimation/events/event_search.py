@@ -19,6 +19,7 @@ from equipoise.estimation.events.record_model import (
 from equipoise.estimation.output_error.problem import track_of
 from equipoise.estimation.output_error.solution import smooth_at
 from equipoise.estimation.search_budget import Stage
+from equipoise.maths.attitude import tilt
 from equipoise.maths.whiteness import spectral_peak
 from equipoise.model.arrays import Floats
 
@@ -27,6 +28,7 @@ CLEAR = 9.0  # chosen: 2 ln of how much likelier one kind is than another, to be
 OUTLYING = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
 SWINGS = 3.0  # of the same time, chosen: without process noise, events nearer than this may be one
 SHORT = 0.1  # of the farthest travel, chosen: less gives no scale beside it
+PUSH = "impulse"
 DOUBTFUL = 4.0  # thresholds, chosen: an event so sure is not put to the test
 
 
@@ -70,12 +72,22 @@ def without_sure_travel(model: RecordModel) -> bool:
     return bool(spans) and all(any(a <= t <= b for t in times) for a, b in spans)
 
 
+def is_at_stop(model: RecordModel, t: float) -> bool:
+    """Say whether a camera shows the platform at its stop within a cut's spacing of ``t`` (s)."""
+    rows = model.recording.attitude
+    if rows is None:
+        return False
+    near = rows.where(np.abs(rows.t - t) <= model.spacing)
+    return bool(np.any(tilt(near.values, model.testbed.up) > model.testbed.tilt_at_stop))
+
+
 def doubted(model: RecordModel) -> RecordModel:
     """Return the model with all that may jump at events that may as well be of another kind.
 
     Without a swing behind them a contact and a part that shifts are alike in the rows; what follows
     for the centre of mass is not. While masses travel an event may be of the travel: what shifts
-    then may be any part of what was recorded, and the scale is as open as that leaves it.
+    then may be any part of what was recorded, and the scale is as open as that leaves it. Where the
+    platform is at its stop, that is what pushes it, unless a part that shifts is clearly likelier.
     """
     travelling = during_travels(model, [event.t for event in model.events])
     for k, event in enumerate(model.events):
@@ -84,7 +96,10 @@ def doubted(model: RecordModel) -> RecordModel:
         others = [other for other in KINDS if other != event.kind]
         models = [timed(with_kind(model, k, other), k) for other in others]
         rival = nearest(models)
-        if farther(rival, model) < CLEAR or travelling[k]:
+        close = farther(rival, model) < CLEAR
+        if is_at_stop(model, event.t):
+            model = rival if close and event.kind != PUSH else model
+        elif close or travelling[k]:
             open_to = replace(event, unclear=True, aside=rival.events[k].t - event.t)
             events = (*model.events[:k], open_to, *model.events[k + 1 :])
             model = replace(model, events=events)
