@@ -72,15 +72,15 @@ def distances(z: Floats, g: Floats, curvature: Floats) -> Floats:
 
     found = np.zeros(len(z))
     outside = excess(z) > 0
-    far, nearest = z[outside], z[outside]
-    low, high = np.full((2, len(far)), [[-DECADES], [DECADES]])
+    beyond, nearest = z[outside], z[outside]
+    low, high = np.full((2, len(beyond)), [[-DECADES], [DECADES]])
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         pull = np.exp(middle)[:, None]
-        nearest = (far - pull * g) / (1.0 + pull * curvature)
+        nearest = (beyond - pull * g) / (1.0 + pull * curvature)
         short = excess(nearest) > 0
         low, high = np.where(short, middle, low), np.where(short, high, middle)
-    found[outside] = np.linalg.norm(nearest - far, axis=1)
+    found[outside] = np.linalg.norm(nearest - beyond, axis=1)
     return found
 
 
