@@ -59,6 +59,16 @@ def test_of_equal_errors_the_lower_bound_is_known_in_closed_form(length):
     assert np.sqrt(ncx2.ppf(0.975, 3, low**2)) == pytest.approx(length, abs=0.06)
 
 
+@pytest.mark.parametrize("unit", [1e-9, 1e-6, 1e3])
+def test_bounds_are_the_same_in_any_unit(unit):
+    """Of micrometres in metres: fails of what is right were 8 % when a search had a scale."""
+    rng = np.random.default_rng(5)
+    mean, P = np.array([0.4, -0.2, 1.5]), np.diag([1e-4, 4e-4, 0.06]) + 1e-5 * random_metric(rng)
+    one, other = bounded_length(mean, P, E3), bounded_length(unit * mean, unit**2 * P, E3)
+    assert np.array(other) / unit == pytest.approx(np.array(one), rel=1e-6)
+    assert 0.0 < one.low < one.value
+
+
 def test_a_vector_no_longer_than_its_errors_may_be_none():
     """sqrt(chi2(0.975, 3)) = 3.057 sd."""
     assert bounded_length(np.array([2.9, 0.0, 0.0]), E3, E3).low == 0.0

@@ -101,8 +101,9 @@ def shortest(mean: Floats, C: Floats, Q: Square) -> float:
     observed = values > NOTHING * max(float(values[-1]), 0.0)
     if not observed.any():
         return float(lengths(mean[None], Q)[0])
-    curvature, V = values[observed], vectors[:, observed]
-    g, z = V.T @ (C.T @ (Q @ mean)), normal_points(int(observed.sum()))[:FEW]
+    size = float(values[-1])  # in its units there is none
+    curvature, V = values[observed] / size, vectors[:, observed]
+    g, z = V.T @ (C.T @ (Q @ mean)) / size, normal_points(int(observed.sum()))[:FEW]
     radius, before = float(ndtri(SURE)), np.inf
     for turn in range(TURNS):
         if abs(radius - before) < CLOSE:
