@@ -108,15 +108,15 @@ def lag_errors(t: Series1, track: Samples, kinds: dict[float, list[int]]) -> lis
     ]
 
 
-def sags(track: Samples, masses: tuple[SlidingMass, ...]) -> Floats:
+def sags(commands: CommandColumns, masses: tuple[SlidingMass, ...], at_rest: bool) -> Floats:
     """Return one sd of how far each mass hangs below what is logged, m.
 
     A command does not show it. Nor does, within its accuracy, a log in steps of masses that rest.
     """
-    commands, found = command_columns(track, masses), np.zeros(len(masses))
+    found = np.zeros(len(masses))
     for i in (*commands.standing, *commands.travelling):
         found[i] = 0.0 if masses[i].logged_late else masses[i].sag_sd
-    if rests(track, masses):
+    if at_rest:
         found = np.maximum(found, [m.accuracy if is_rounded(m) else 0.0 for m in masses])
     return found
 

@@ -91,7 +91,7 @@ def mass_errors(
     if track is None or not len(track):
         none = np.zeros(0)
         return MassErrors(None, np.zeros((0, 2), dtype=np.int64), none, (), none, at_rest=True)
-    commands = command_columns(track, masses)
+    commands, at_rest = command_columns(track, masses), rests(track, masses)
     kinds = kinds_of(commands, masses)
     late = lag_times(track, [sd for sd, kind in kinds.items() if kind])
     taken_up = plays(track, masses)
@@ -110,6 +110,6 @@ def mass_errors(
         np.array(pairs, dtype=np.int64).reshape(-1, 2),
         np.array([each.sd for each in found]),
         tuple(each.name for each in found),
-        np.append(sags(track, masses), np.zeros(len(rails_of(masses)) - len(masses))),
-        rests(track, masses),
+        np.append(sags(commands, masses, at_rest), np.zeros(len(rails_of(masses)) - len(masses))),
+        at_rest,
     )

@@ -33,7 +33,7 @@ from equipoise.model.arrays import Floats, Square
 SURE = 0.975  # one-sided, of every upper bound
 POINTS = 12  # 2^12 points, chosen: quantiles to 1 % of an sd
 FEW = 2**10 - 1  # points, chosen: of those, for r to 2 % of an sd
-DECADES, HALVINGS = 30.0, 40  # of the pull toward K, ln: to rounding
+WIDEST, HALVINGS = 30.0, 40  # of the pull toward K, ln: to rounding
 TURNS, CLOSE = 12, 1e-3  # chosen: r to a thousandth of an sd
 NOTHING = 1e-12  # chosen: of the largest eigenvalue, a smaller one is rounding
 
@@ -73,7 +73,7 @@ def distances(z: Floats, g: Floats, curvature: Floats) -> Floats:
     found = np.zeros(len(z))
     outside = excess(z) > 0
     beyond, nearest = z[outside], z[outside]
-    low, high = np.full((2, len(beyond)), [[-DECADES], [DECADES]])
+    low, high = np.full((2, len(beyond)), [[-WIDEST], [WIDEST]])
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         pull = np.exp(middle)[:, None]
@@ -82,6 +82,17 @@ def distances(z: Floats, g: Floats, curvature: Floats) -> Floats:
         low, high = np.where(short, middle, low), np.where(short, high, middle)
     found[outside] = np.linalg.norm(nearest - beyond, axis=1)
     return found
+
+
+def sure_distance(z: Floats, g: Floats, curvature: Floats) -> float:
+    """Return the 97.5 % quantile of ``distances``, exact where the edge is flat.
+
+    There they are those along g alone, so that what these points miss of 1.96 is known.
+    """
+    found = float(np.quantile(distances(z, g, curvature), SURE))
+    size = float(np.linalg.norm(g))
+    along = float(np.quantile(z @ (g / size), SURE)) if size > 0 else float(ndtri(SURE))
+    return found + float(ndtri(SURE)) - along
 
 
 def toward_zero(g: Floats, curvature: Floats, radius: float) -> Floats:
@@ -110,7 +121,7 @@ def shortest(mean: Floats, C: Floats, Q: Square) -> float:
             break
         before = radius
         at = toward_zero(g, curvature, radius)
-        sure = float(np.quantile(distances(z, g + curvature * at, curvature), SURE))
+        sure = sure_distance(z, g + curvature * at, curvature)
         radius = sure if turn < TURNS // 2 else 0.5 * (radius + sure)
     return float(lengths((mean + C @ (V @ toward_zero(g, curvature, radius)))[None], Q)[0])
 

@@ -28,7 +28,7 @@ CLEAR = 9.0  # chosen: 2 ln of how much likelier one kind is than another, to be
 OUTLYING = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
 SWINGS = 3.0  # of the same time, chosen: without process noise, events nearer than this may be one
 SHORT = 0.1  # of the farthest travel, chosen: less gives no scale beside it
-PUSH = "impulse"
+PUSH = "impulse"  # what a stop does
 DOUBTFUL = 4.0  # thresholds, chosen: an event so sure is not put to the test
 
 
@@ -93,12 +93,15 @@ def doubted(model: RecordModel) -> RecordModel:
     for k, event in enumerate(model.events):
         if not model.may(Stage.EVENTS):
             break
+        at_stop = is_at_stop(model, event.t)
+        if at_stop and event.kind == PUSH:
+            continue
         others = [other for other in KINDS if other != event.kind]
         models = [timed(with_kind(model, k, other), k) for other in others]
         rival = nearest(models)
         close = farther(rival, model) < CLEAR
-        if is_at_stop(model, event.t):
-            model = rival if close and event.kind != PUSH else model
+        if at_stop:
+            model = rival if close else model
         elif close or travelling[k]:
             open_to = replace(event, unclear=True, aside=rival.events[k].t - event.t)
             events = (*model.events[:k], open_to, *model.events[k + 1 :])
