@@ -24,6 +24,7 @@ from equipoise.estimation.model_selection.model_search import MOST_EVENTS, is_ca
 from equipoise.estimation.model_selection.survey import survey
 from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
+    added,
     clock_reasons,
     driven,
     lamp_reasons,
@@ -114,7 +115,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
         *clock_reasons(model, concluded),
         *lean_reasons(model, concluded),
         *sensor_reasons(model, concluded),
-        *term_reasons(model, requested),
+        *term_reasons(added(model, requested), concluded, model.testbed),
         *lamp_reasons(model),
         *walk_reasons(model),
     ]

@@ -6,7 +6,12 @@ from equipoise.actuators.lags import LAG
 from equipoise.estimation.events.record_model import RecordModel, slowest
 from equipoise.estimation.model_selection.cross_validation import posed_in
 from equipoise.estimation.model_selection.lamp_response import follows
-from equipoise.estimation.model_selection.model_choice import candidates, with_group
+from equipoise.estimation.model_selection.model_choice import (
+    candidates,
+    is_of_sensors,
+    with_group,
+)
+from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
@@ -18,6 +23,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.reasons.data_reasons import Unexplained
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason, axes_of
+from equipoise.model.testbed import Testbed
 
 NOISY = 1.3  # chosen: a noise, or a time, off by more is reported
 OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, unreported
@@ -54,9 +60,25 @@ def added(model: RecordModel, requested: Params) -> tuple[str, ...]:
     return tuple(t for t in (*model.params.sensor, *model.params.terms) if t not in have)
 
 
-def term_reasons(model: RecordModel, requested: Params) -> tuple[Reason, ...]:
-    """Return which terms were added, and which of them a testbed file can declare."""
-    return reasons_of_added(added(model, requested))
+def is_open(group: tuple[str, ...], concluded: Estimate, testbed: Testbed) -> bool:
+    """Say whether terms are errors of sensors that may as well be zero.
+
+    They were added all the same: where an error is as likely there as not, com is several sd off
+    without it.
+    """
+    if not is_of_sensors(group):
+        return False
+    return not is_supported(concluded, group, sensor_sizes(group, testbed))
+
+
+def term_reasons(
+    terms: tuple[str, ...], concluded: Estimate, testbed: Testbed
+) -> tuple[Reason, ...]:
+    """Return which added terms a record supports, and which errors of sensors it leaves open."""
+    groups = {GROUP_OF[t]: tuple(u for u in terms if GROUP_OF[u] == GROUP_OF[t]) for t in terms}
+    carried = tuple(name for name, group in groups.items() if is_open(group, concluded, testbed))
+    found = reasons_of_added(tuple(t for t in terms if GROUP_OF[t] not in carried))
+    return (*found, Reason(Why.TERMS_CARRIED, carried)) if carried else found
 
 
 def reasons_of_added(terms: tuple[str, ...]) -> tuple[Reason, ...]:

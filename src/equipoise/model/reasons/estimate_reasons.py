@@ -84,6 +84,10 @@ class EstimateReason(Code):
         "The gyro noise is {found:deg .2g} deg/s a row, not {stated:deg .2g} as stated.",
     )
     TERMS_ADDED = "terms_added", "Terms that the record supports were added: {names}."
+    TERMS_CARRIED = (
+        "terms_carried",
+        "Intervals count errors of sensors that the record neither shows nor excludes: {names}.",
+    )
     TERMS_TO_DECLARE = (
         "terms_to_declare",
         "Declare under [disturbance] consider in the testbed file: {names}; then shorter records "
