@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.estimation.motion.stays_at_stop import judged_by_stays
 from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
@@ -67,7 +68,8 @@ def estimated(method: Method, recording: Recording, testbed: Testbed, options: O
         known = ", ".join(f"--{choice}" for choice in method.card.heeds) or "none of these options"
         raise InputError("method", f"--{name} with {method.card.name}, which knows {known}",
                          "another method, such as trajectory, or no such option")  # fmt: skip
-    return method.run(recording, testbed, replace(options, budget=options.budget.renewed()))
+    found = method.run(recording, testbed, replace(options, budget=options.budget.renewed()))
+    return judged_by_stays(found, recording, testbed)
 
 
 def origin_of(recording: Recording) -> dict[str, str]:

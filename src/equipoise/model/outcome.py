@@ -43,6 +43,7 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.UNEXPLAINED_ATTITUDE,
         Why.UNEXPLAINED_RATE,
         Why.TOO_MANY_EVENTS,
+        Why.LAY_ON_STOP,
         Why.UNKNOWN_TORQUE,
         Why.RESIDUAL_TOO_LARGE,
         Why.FILTER_INNOVATIONS_TOO_LARGE,

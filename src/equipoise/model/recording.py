@@ -54,6 +54,12 @@ class Samples:
         return float(np.median(np.diff(self.t)))
 
 
+def runs(mask: Bools) -> list[tuple[int, int]]:
+    """Return the first and the last row of each run in a mask."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]])))
+    return [(int(a), int(b) - 1) for a, b in edges.reshape(-1, 2)]
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Recording(Plotted):
     """What was recorded. Any channel may be absent."""

@@ -26,7 +26,7 @@ def test_a_record_on_the_stop_is_said_to_be(equipoise, tmp_path):
     done = equipoise("simulate", path, "--out", out, "--duration-s", 30)
     assert done.code == 0
     assert "tilts to its limit of 20 deg from" in done.out
-    assert "lies on its stop" in done.out
+    assert "the pressure of its stop" in done.out
     read = equipoise("inspect", out, "--testbed", path)
     assert "! the platform tilts to its limit of 20 deg from" in read.out
 

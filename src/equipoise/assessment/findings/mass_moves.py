@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from equipoise.assessment.record_checks.frozen_rows import runs
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
-from equipoise.model.recording import Recording
+from equipoise.model.recording import Recording, runs
 
 STILL = 1e-6  # m between rows; chosen: below any actuator's step, above an encoder's flicker
 NAMED = 12  # moves that are named one by one; chosen: two rounds of six masses

@@ -2,26 +2,21 @@
 
 from collections.abc import Sequence
 
-from equipoise.assessment.record_checks.at_stop import at_stop
-from equipoise.assessment.record_checks.frozen_rows import runs
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.at_stop import BRIEF, Span, spans_at_stop
 
-BRIEF = 2.0  # s, chosen: near its turning point a swing stays by its greatest tilt for so long
 NAMED = 5  # touches that are named one by one; chosen: a screen
-Span = tuple[float, float]
 
 
 def stop_findings(attitude: Samples | None, testbed: Testbed | None) -> list[Finding]:
     """Return when a record's platform was at its stop; only a testbed says where that is."""
     if attitude is None or testbed is None:
         return []
-    t, touching = attitude.t, runs(at_stop(attitude, testbed))
-    spans = [(float(t[first]), float(t[last])) for first, last in touching]
-    return touch_findings(spans, testbed.tilt_limit)
+    return touch_findings(spans_at_stop(attitude, testbed), testbed.tilt_limit)
 
 
 def touch_findings(spans: Sequence[Span], limit: float) -> list[Finding]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.assessment.record_checks.frozen_rows import frozen_attitudes, frozen_rates, runs
+from equipoise.assessment.record_checks.frozen_rows import frozen_attitudes, frozen_rates
 from equipoise.assessment.record_checks.outliers import (
     OutlyingRows,
     outlying_attitudes,
@@ -14,7 +14,7 @@ from equipoise.assessment.record_checks.outliers import (
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import Recording, Samples, runs
 
 NAMED = 5  # rows and runs that are named one by one; chosen: a screen
 

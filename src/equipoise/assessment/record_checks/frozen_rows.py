@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from equipoise.assessment.record_checks.attitude_steps import steps
 from equipoise.model.arrays import Series3
-from equipoise.model.recording import Samples
+from equipoise.model.recording import Samples, runs
 
 ALARMS = 0.1  # records without a frozen row in which one is named; chosen: one in ten
 
@@ -23,12 +23,6 @@ def frozen_attitudes(attitude: Samples) -> NDArray[np.bool_]:
 def frozen_rates(rate: Samples) -> NDArray[np.bool_]:
     """Return the mask (n,) of gyro rows that repeat the one before and should not."""
     return _frozen(np.diff(rate.values, axis=0))
-
-
-def runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return the first and the last row of each run in a mask."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]])))
-    return [(int(a), int(b) - 1) for a, b in edges.reshape(-1, 2)]
 
 
 def _frozen(step: Series3) -> NDArray[np.bool_]:

@@ -32,10 +32,12 @@ from equipoise.estimation.model_selection.survey_reasons import (
     log_reasons,
     noise_reasons,
     open_terms,
+    pressed_stays,
     sensor_reasons,
     term_reasons,
     walk_reasons,
 )
+from equipoise.estimation.motion.stays_at_stop import stay_reasons
 from equipoise.estimation.motion.unresolved_rates import without_unresolved_rates
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude, widening
 from equipoise.estimation.output_error.growing_horizon import at_rest
@@ -118,6 +120,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
         *term_reasons(added(model, requested), concluded, model.testbed),
         *lamp_reasons(model),
         *walk_reasons(model),
+        *stay_reasons(model.recording, pressed_stays(model)),
     ]
     if share > DRIVEN:
         found.append(Reason(Why.UNKNOWN_TORQUE, (), {"share": share}))

@@ -12,6 +12,7 @@ from equipoise.estimation.model_selection.model_choice import (
     with_group,
 )
 from equipoise.estimation.model_selection.term_support import is_supported
+from equipoise.estimation.motion.stays_at_stop import stays
 from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
@@ -24,6 +25,7 @@ from equipoise.model.reasons.data_reasons import Unexplained
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason, axes_of
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.at_stop import Span
 
 NOISY = 1.3  # chosen: a noise, or a time, off by more is reported
 OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, unreported
@@ -192,3 +194,16 @@ def open_terms(model: RecordModel) -> tuple[Reason, ...]:
             about = (names[k], group[0].split("_")[0], units[k])
             found.append(Reason(Unexplained.TERM_WOULD_WIDEN, about, {"sd": float(free[k])}))
     return tuple(found)
+
+
+def pressed_stays(model: RecordModel) -> list[Span]:
+    """Return the stays at the stop (s) that are no turn of a swing: long, or with an event."""
+    return [span for span in stays(model.recording, model.testbed) if is_pressed(model, span)]
+
+
+def is_pressed(model: RecordModel, span: Span) -> bool:
+    """Say whether a stay at the stop is longer than a swing's, or the fit needs an event at it."""
+    start, end = span
+    near = model.spacing
+    pushed = any(start - near <= event.t <= end + near for event in model.events)
+    return pushed or end - start > slowest(model)

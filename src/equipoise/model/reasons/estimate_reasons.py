@@ -122,6 +122,13 @@ class EstimateReason(Code):
         "A torque that no term explains wanders by {torque_x:uN m .2g}, {torque_y:uN m .2g}, "
         "{torque_z:uN m .2g} uN m about x, y, z within {seconds:.2g} s; intervals count it.",
     )
+    LAY_ON_STOP = (
+        "lay_on_stop",
+        "But the platform stays at its tilt limit from {start:.4g} to {end:.4g} s, as no swing "
+        "does, and the pressure of a stop is no part of the model: do not trust the numbers. "
+        "Identify a part without such a stay, the longest from {first:.4g} to {last:.4g} s "
+        "(--from-s, --to-s).",
+    )
     UNKNOWN_TORQUE = (
         "unknown_torque",
         "That torque is {share:.2g} times what gravity does: something drives the platform that "

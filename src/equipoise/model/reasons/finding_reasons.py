@@ -60,12 +60,12 @@ class FindingReason(Code):
     MEETS_STOP = (
         "meets_stop",
         "the platform tilts to its limit of {limit:deg .3g} deg at {t:.4g} s: no estimate models "
-        "the push of its stop.",
+        "a push of its stop.",
     )
     LIES_ON_STOP = (
         "lies_on_stop",
         "the platform tilts to its limit of {limit:deg .3g} deg from {start:.4g} to {end:.4g} s: "
-        "it lies on its stop, which no estimate models.",
+        "no estimate models the pressure of its stop.",
     )
     MORE_TOUCHES = "more_touches", "{count:.0f} further touches of the stop."
     SPIN = (

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from equipoise.assessment.record_checks.at_stop import at_stop
 from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.at_stop import at_stop
 
 OFTEN = 1.0  # s, chosen: how often a long record is checked
 

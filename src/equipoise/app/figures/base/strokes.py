@@ -7,9 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import BAND, WIDE
-from equipoise.assessment.record_checks.frozen_rows import runs
 from equipoise.model.arrays import Floats, Series1
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import Recording, Samples, runs
 from equipoise.model.units import UM
 
 MOST = 4000  # points of a line; chosen: more than a page has pixels across
