@@ -103,6 +103,8 @@ ACTUATORS = _of(
 SENSORS = _of(
     "sensors",
     ("timing.py", "- 0.5 * sensor.averaging", "- sensor.averaging", "sensors/test_timing.py"),
+    ("at_stop.py", 'mode="edge") > testbed', 'mode="edge") < testbed',
+     "assessment/findings/test_stop_findings.py"),
     ("gyro.py", "other if other < row else", "other if other <= row else", "sensors/test_gyro.py"),
     ("camera.py", "return less_cross(x, now.turn, 0.5)", "return less_cross(x, now.turn, -0.5)",
      "sensors/test_camera.py"),
@@ -163,8 +165,6 @@ ASSESSMENT = _of(
      "np.dot(shape, each.swing.shape)", "assessment/metrics/test_swing_height.py"),
     ("metrics/torque_range.py", "return weight**2 * np.einsum", "return weight * np.einsum",
      "assessment/metrics/test_torque_range.py"),
-    ("sensors/at_stop.py", 'mode="edge") > testbed', 'mode="edge") < testbed',
-     "assessment/findings/test_stop_findings.py"),
     ("record_checks/clock_offset.py", "lateness(camera) - lateness(gyro)",
      "lateness(camera) + lateness(gyro)", "assessment/record_checks/test_clock_offset.py"),
     ("record_checks/frozen_rows.py", "(last - first + 1) < ALARMS", "(last - first + 1) > ALARMS",

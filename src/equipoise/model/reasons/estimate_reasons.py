@@ -84,10 +84,7 @@ class EstimateReason(Code):
         "The gyro noise is {found:deg .2g} deg/s a row, not {stated:deg .2g} as stated.",
     )
     TERMS_ADDED = "terms_added", "Terms that the record supports were added: {names}."
-    TERMS_CARRIED = (
-        "terms_carried",
-        "Intervals count errors of sensors that the record neither shows nor excludes: {names}.",
-    )
+    TERMS_CARRIED = "terms_carried", "Intervals count errors of sensors that may be zero: {names}."
     TERMS_TO_DECLARE = (
         "terms_to_declare",
         "Declare under [disturbance] consider in the testbed file: {names}; then shorter records "
@@ -125,19 +122,15 @@ class EstimateReason(Code):
     LAY_ON_STOP = (
         "lay_on_stop",
         "But the platform stays at its tilt limit from {start:.4g} to {end:.4g} s, as no swing "
-        "does, and the pressure of a stop is no part of the model: do not trust the numbers. "
-        "Identify a part without such a stay, the longest from {first:.4g} to {last:.4g} s "
-        "(--from-s, --to-s).",
+        "does, and no model has the pressure of a stop: do not trust the numbers. Identify a part "
+        "without such a stay, the longest from {first:.4g} to {last:.4g} s (--from-s, --to-s).",
     )
     UNKNOWN_TORQUE = (
         "unknown_torque",
         "That torque is {share:.2g} times what gravity does: something drives the platform that "
         "the model does not know, do not trust the numbers.",
     )
-    INPUT_LIMITS = (
-        "input_limits",
-        "How well the input '{0}' is known limits {rest}.",
-    )
+    INPUT_LIMITS = "input_limits", "How well the input '{0}' is known limits {rest}."
     OUTLIERS_REMOVED = "outliers_removed", "{rows:.0f} outlying rows are left out."
     RATES_UNRESOLVED = (
         "rates_unresolved",
