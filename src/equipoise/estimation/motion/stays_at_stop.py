@@ -17,7 +17,7 @@ from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
-from equipoise.model.recording import Recording
+from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AT_STOP, Testbed
 from equipoise.sensors.at_stop import BRIEF, Span, spans_at_stop
 
@@ -27,14 +27,18 @@ def stays(recording: Recording, testbed: Testbed) -> list[Span]:
     attitude = recording.attitude
     if attitude is None:
         return []
-    lean = tilt(attitude.values, testbed.up)
-    return [
-        (start, end)
-        for start, end in spans_at_stop(attitude, testbed)
-        if end - start >= BRIEF
-        and np.median(lean[(attitude.t >= start) & (attitude.t <= end)]) * AT_STOP
-        < testbed.tilt_limit
-    ]
+    spans = [(a, b) for a, b in spans_at_stop(attitude, testbed) if b - a >= BRIEF]
+    return [span for span in spans if not is_beyond(attitude, span, testbed)]
+
+
+def is_beyond(attitude: Samples, span: Span, testbed: Testbed) -> bool:
+    """Say whether rows tilt farther than the stop lets them, so that it is elsewhere than stated.
+
+    The bound is as far beyond the limit as rows at the stop may be below.
+    """
+    start, end = span
+    rows = attitude.where((attitude.t >= start) & (attitude.t <= end))
+    return bool(np.median(tilt(rows.values, testbed.up)) * AT_STOP > testbed.tilt_limit)
 
 
 def longest_without(recording: Recording, spans: Iterable[Span]) -> Span:
