@@ -8,9 +8,13 @@ from equipoise.model.estimate import COM, INERTIA
 
 @pytest.mark.usefixtures("few_platforms")
 def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch, strict_json):
-    """Few trials: that the plan is good is for others to show; that it fits together, for this."""
+    """Few trials: that the plan is good is for others to show; that it fits together, for this.
+
+    So few that it takes the platforms of most seeds to their stop, where nothing is identified; 5
+    is one that it does not.
+    """
     monkeypatch.chdir(tmp_path)
-    simulate = "simulate sputnix --out run.csv --duration-s 40 --move"
+    simulate = "simulate sputnix --out run.csv --duration-s 40 --seed 5 --move"
     assert run([*simulate.split(), "20: x1=-10 y1=-10 z1=-50"]) == 0
     words = (
         "plan sputnix --duration-s 40 --prior-record run.csv --trials 3 --moves 2 --json "
@@ -23,7 +27,7 @@ def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch, 
     assert plan["standing_m"] == {"x1": -0.010, "y1": -0.010, "z1": -0.050}
     assert len(plan["moves"]) == 2
     assert all(sd > 0 for sd in plan["planned"]["sd"].values())
-    words = "simulate sputnix --plan plan.toml --out planned.csv"
+    words = "simulate sputnix --plan plan.toml --out planned.csv --seed 5"
     assert run(words.split()) == 0
     words = "identify planned.csv --testbed sputnix --plan plan.toml --json"
     assert run(words.split()) == 0

@@ -6,6 +6,7 @@ axis; over a stretch of length dt it jumps the rate by walk_i sqrt(dt) / J_ii.
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -60,6 +61,7 @@ class RecordModel:
     stated: Testbed  # with the noise as it was stated
     coloured: float = 1.0  # times an interval is as wide as rows say that err independently
     unfinished: tuple[Stage, ...] = ()  # of the search, when its budget was spent
+    rivals: tuple["Rival", ...] = ()  # models that are about as likely
 
     def may(self, stage: Stage) -> bool:
         """Say whether the search of this model may go on."""
@@ -74,6 +76,13 @@ class RecordModel:
     def spacing(self) -> float:
         """Return the time between cuts, s."""
         return float(self.cuts[1] - self.cuts[0]) if len(self.cuts) > 1 else 1.0
+
+
+class Rival(NamedTuple):
+    """A model that was not taken, and by how much the record is less probable in it."""
+
+    model: RecordModel
+    behind: float  # -2 ln of the ratio
 
 
 def jumps_of(model: RecordModel, cuts: Series1) -> tuple[Jump, ...]:

@@ -1,5 +1,7 @@
 """Which of the models that were found is the likeliest: with terms, events or process noise."""
 
+from dataclasses import replace
+
 from equipoise.estimation.events.event_search import colour_of, pruned
 from equipoise.estimation.events.noise_identification import calibrated, weighed
 from equipoise.estimation.events.record_model import RecordModel, improbability, refitted
@@ -10,6 +12,7 @@ from equipoise.estimation.model_selection.model_choice import (
     with_group,
 )
 from equipoise.estimation.model_selection.model_search import driven, is_calm, repeated, wandering
+from equipoise.estimation.model_selection.rival_models import chosen
 from equipoise.estimation.search_budget import Stage
 
 MANY = 4  # events, chosen: so many may be a push that comes and goes
@@ -38,7 +41,7 @@ def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
     plain = sought == (model.params.terms, model.params.sensor)
     if not (plain or (not greedy.events and is_calm(greedy))):
         events_first = repeated(repeated(model, terms=False))
-        return likeliest([bared(one, model.params) for one in (greedy, events_first)])
+        return chosen([bared(one, model.params) for one in (greedy, events_first)])
     return bared(greedy, model.params)
 
 
@@ -76,5 +79,5 @@ def compared(
         return simple
     models = [simple, pushed or driven(model)]
     if greedy.events and not explained:
-        models.append(driven(greedy))
-    return likeliest(models)
+        models.append(replace(driven(greedy), rivals=()))
+    return chosen(models)

@@ -21,6 +21,7 @@ from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
 from equipoise.estimation.model_selection.lamp_response import with_response
 from equipoise.estimation.model_selection.model_search import MOST_EVENTS, is_calm
+from equipoise.estimation.model_selection.rival_models import with_rivals
 from equipoise.estimation.model_selection.survey import survey
 from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
@@ -246,7 +247,7 @@ def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Esti
 
     The latter where the search was finished: it takes long, and is not needed.
     """
-    concluded = with_response(with_moments(concluded, model), model)
+    concluded = with_rivals(with_response(with_moments(concluded, model), model), model)
     concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
     residual = concluded.residual if model.unfinished else held_out(model, concluded.residual)

@@ -85,6 +85,7 @@ class EstimateReason(Code):
     )
     TERMS_ADDED = "terms_added", "Terms that the record supports were added: {names}."
     TERMS_CARRIED = "terms_carried", "Intervals count errors of sensors that may be zero: {names}."
+    RIVAL_MODELS = "rival_models", "Intervals count other models of the record, about as likely."
     TERMS_TO_DECLARE = (
         "terms_to_declare",
         "Declare under [disturbance] consider in the testbed file: {names}; then shorter records "
