@@ -6,6 +6,7 @@ from scipy.optimize import minimize
 from scipy.stats import chi2, ncx2, norm
 
 from equipoise.maths.gaussian_length import bounded_length, distances, normal_points
+from tests.support.thorough import count
 
 E3 = np.eye(3)
 
@@ -105,13 +106,14 @@ def test_directions_that_do_not_matter_do_not_count():
 
 @pytest.mark.parametrize("sd", [0.05, 0.3, 1.0])
 def test_a_vector_at_the_limit_is_seldom_found_within_it_or_beyond(sd):
-    """2.5 % to either side, whatever the errors, in 1000 draws (sd 0.5 %)."""
-    rng, truth = np.random.default_rng(3), np.array([0.6, 0.0, -0.8])
-    found = [bounded_length(truth + sd * rng.normal(size=3), sd**2 * E3, E3) for _ in range(1000)]
+    """2.5 % to either side, whatever the errors, within three sd of the share in so many draws."""
+    rng, truth, draws = np.random.default_rng(3), np.array([0.6, 0.0, -0.8]), count(1000, 300)
+    found = [bounded_length(truth + sd * rng.normal(size=3), sd**2 * E3, E3) for _ in range(draws)]
+    most = 0.025 + 3 * (0.025 * 0.975 / draws) ** 0.5
     passed = np.mean([each.high < 1.0 for each in found])
     failed = np.mean([each.low > 1.0 for each in found])
-    assert passed < 0.025 + 3 * 0.005
-    assert failed < 0.025 + 3 * 0.005
+    assert passed < most
+    assert failed < most
 
 
 def test_the_points_are_those_of_a_normal_distribution():
