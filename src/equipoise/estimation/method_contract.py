@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.estimation.motion.stays_at_stop import judged_by_stays
 from equipoise.estimation.search_budget import UNLIMITED, Budget
+from equipoise.estimation.stays_at_stop import judged_by_stays
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card, Choice

@@ -38,7 +38,6 @@ from equipoise.estimation.model_selection.survey_reasons import (
     term_reasons,
     walk_reasons,
 )
-from equipoise.estimation.motion.stays_at_stop import stay_reasons
 from equipoise.estimation.motion.unresolved_rates import without_unresolved_rates
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude, widening
 from equipoise.estimation.output_error.growing_horizon import at_rest
@@ -48,6 +47,7 @@ from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
 from equipoise.estimation.output_error.toward_stated import tried
 from equipoise.estimation.output_error.trajectory import METHOD, Params
 from equipoise.estimation.search_budget import cut_short
+from equipoise.estimation.stays_at_stop import stay_reasons
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Residual

@@ -12,11 +12,11 @@ from equipoise.estimation.model_selection.model_choice import (
     with_group,
 )
 from equipoise.estimation.model_selection.term_support import is_supported
-from equipoise.estimation.motion.stays_at_stop import stays
 from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import CORE, sensor_sizes
+from equipoise.estimation.stays_at_stop import stays
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats, Square

@@ -12,14 +12,14 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.model_selection.reference_fit import estimate as identified
 from equipoise.estimation.model_selection.reference_fit import modelled
 from equipoise.estimation.model_selection.survey_reasons import pressed_stays
-from equipoise.estimation.motion.stays_at_stop import (
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.stays_at_stop import (
     judged_by_stays,
     longest_without,
     stay_reasons,
     stays,
     swing_time,
 )
-from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential
 from equipoise.model.estimate import Estimate
