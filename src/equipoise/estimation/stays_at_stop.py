@@ -61,11 +61,11 @@ def stay_reasons(recording: Recording, spans: list[Span]) -> tuple[Reason, ...]:
 def swing_time(estimate: Estimate, testbed: Testbed) -> float:
     """Return w^-1 (s) by what an estimate has, else by the testbed's body."""
     body = testbed.body
-    com = estimate.com if all(map(estimate.has, COM)) else body.com
-    moment = body.mean_moment
+    if all(map(estimate.has, COM)):
+        body = replace(body, com=estimate.com)
     if all(map(estimate.has, INERTIA)):
-        moment = float(np.trace(estimate.inertia_P)) / 3
-    return float(np.sqrt(abs(moment) / max(testbed.weight * float(np.linalg.norm(com)), 1e-12)))
+        body = replace(body, inertia_P=estimate.inertia_P)
+    return body.swing_time(testbed.gravity)
 
 
 def judged_by_stays(estimate: Estimate, recording: Recording, testbed: Testbed) -> Estimate:

@@ -14,6 +14,7 @@ from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.presentation import Plotted
 
 EYE = np.eye(3)
+LEAST = 1e-12  # N m, of a stiffness: a balanced body swings, though for very long
 
 
 def parallel_axis(mass: float, offset: Vector3) -> Matrix3:
@@ -38,6 +39,11 @@ class MassProperties(Plotted):
     def mean_moment(self) -> float:
         """Mean moment of inertia about P, kg m^2."""
         return float(np.trace(self.inertia_P)) / 3
+
+    def swing_time(self, gravity: float) -> float:
+        """Return sqrt(J / m g |r|), s, with the mean moment: a swing's period over 2 pi."""
+        stiffness = self.mass * gravity * float(np.linalg.norm(self.com))
+        return float(np.sqrt(abs(self.mean_moment) / max(stiffness, LEAST)))
 
     @property
     def inertia_C(self) -> Matrix3:

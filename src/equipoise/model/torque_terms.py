@@ -6,6 +6,9 @@ Groups are what a testbed file asks for under ``[disturbance]``.
 
 from collections.abc import Iterable
 
+import numpy as np
+
+from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 
 GROUPS: dict[str, tuple[str, ...]] = {
@@ -51,6 +54,11 @@ def among(names: Iterable[str]) -> tuple[str, ...]:
 def typical(term: str) -> float:
     """Return how large a term's coefficient is on benches, one sd, SI."""
     return SIZES[term.split("_")[0]][1]
+
+
+def typical_sizes(terms: Iterable[str]) -> Floats:
+    """Return the same of several terms."""
+    return np.array([typical(term) for term in terms])
 
 
 def unit_of(term: str) -> str:

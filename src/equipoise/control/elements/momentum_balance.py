@@ -38,7 +38,7 @@ from equipoise.maths.compiled import kernel
 from equipoise.maths.linalg import cross, skew
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.model.torque_terms import GROUPS, TERMS, typical
+from equipoise.model.torque_terms import GROUPS, TERMS, typical_sizes
 
 L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 
@@ -117,7 +117,7 @@ def rows_at(sample: Sample, book: Book, begin: float) -> Floats:
 
 def opened(testbed: Testbed, book: Book, sample: Sample) -> Ledger:
     """Return the estimate at the first sample, with the testbed's nominal values as prior."""
-    priors = [typical(term) for term in book.terms]
+    priors = typical_sizes(book.terms)
     sd = np.concatenate(
         [np.full(3, 1.0), np.full(3, PLAY_SD), np.full(3, BIAS_SD), testbed.com_sd, priors]
     )

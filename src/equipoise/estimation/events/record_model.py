@@ -162,10 +162,8 @@ def farther(model: RecordModel, other: RecordModel) -> float:
 def slowest(model: RecordModel) -> float:
     """Return the time (s) within which gravity must act: that of the swing, over 2 pi."""
     body = model.fitted.point.body(model.testbed.body.mass)
-    stiffness = model.testbed.weight * float(np.linalg.norm(body.com))
     start, end = model.recording.span
-    swing = float(np.sqrt(body.mean_moment / max(stiffness, 1e-12)))
-    return float(np.clip(swing, model.spacing, end - start))
+    return float(np.clip(body.swing_time(model.testbed.gravity), model.spacing, end - start))
 
 
 def process_noise(fit: Fitted) -> tuple[Bools, Floats]:

@@ -35,7 +35,7 @@ from equipoise.model.arrays import Floats, Series1, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.sensor_terms import GYRO_CLOCK
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import GROUPS, typical
+from equipoise.model.torque_terms import GROUPS, typical_sizes
 from equipoise.sensors.timing import measured_at, spread_of
 
 COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
@@ -121,7 +121,7 @@ def prior_of(
 
 def with_typical_torques(prior: Prior, layout: Layout, names: tuple[str, ...]) -> Prior:
     """Return a prior that also knows how large some torques are on benches."""
-    weight, size = prior.weight.copy(), np.array([typical(term) for term in layout.terms])
+    weight, size = prior.weight.copy(), typical_sizes(layout.terms)
     weight[layout.torques] += np.where(np.isin(layout.terms, names), size**-2.0, 0.0)
     return replace(prior, weight=weight)
 

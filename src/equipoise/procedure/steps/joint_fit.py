@@ -19,7 +19,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import GROUPS, among, typical
+from equipoise.model.torque_terms import GROUPS, among, typical_sizes
 
 DRIFT, THERMAL = GROUPS["drift"], GROUPS["thermal"]
 CONSIDERED = (*GROUPS["viscous"], *DRIFT, *THERMAL)  # there is some of these on every bench
@@ -123,20 +123,18 @@ def supported(knowledge: Knowledge, setup: FitSetup) -> tuple[str, ...]:
     """Return the considered terms, neither declared nor found yet, that the record supports."""
     unknown = {*setup.considered} - {*setup.testbed.disturbances, *knowledge.found}
     groups = [group for group in GROUPS.values() if set(group) <= unknown]
-    sizes = [np.array([typical(term) for term in group]) for group in groups]
-    shown = [
-        g for g, s in zip(groups, sizes, strict=True) if is_supported(knowledge.estimate, g, s)
-    ]
+    found = knowledge.estimate
+    shown = [group for group in groups if is_supported(found, group, typical_sizes(group))]
     return tuple(term for group in shown for term in group)
 
 
 def params_of(setup: FitSetup, found: tuple[str, ...]) -> trajectory.Params:
     """Return the options of a fit with torques that are declared, found, or else considered."""
     open_terms = {*setup.testbed.disturbances, *found}
-    limited = among({*setup.considered} - open_terms)
+    typical = among({*setup.considered} - open_terms)
     terms = among({*open_terms, *setup.considered})
     budget = setup.allowed.renewed()
-    return trajectory.Params(terms, use_prior=True, typical=limited, budget=budget)
+    return trajectory.Params(terms, use_prior=True, typical=typical, budget=budget)
 
 
 def fitted_in(setup: FitSetup, before: Knowledge | None, found: tuple[str, ...]) -> Knowledge:
