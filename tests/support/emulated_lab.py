@@ -1,16 +1,19 @@
 """An emulated bench with faulty wires and faulty motors, and the real bench at its ports."""
 
 import contextlib
+import time
 from dataclasses import replace
 
 from equipoise.app.bench.emulation import Station, emulate
 from equipoise.app.bench.held_platform import later
 from equipoise.app.bench.open_bench import keeper_of
+from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.model.hardware import Port
 from tests.support.faulty_wire import FaultyWire
 
 TICK = 0.02  # s, chosen: as often as a row of 50 Hz
+PATIENCE = 10.0  # s of the wall, chosen: for a thread of a busy computer to pass a message on
 
 
 def over_tcp(bed):
@@ -110,6 +113,28 @@ class JumpingClock:
         return self._device.messages(later(rows, self.by))
 
 
+class ThreadedPort:
+    """Stands before a port whose messages go through a thread: a message sent is waited for.
+
+    On the lab's clock it is there within its tick, however busy the computer is.
+    """
+
+    def __init__(self, port, wire):
+        self._port, self._wire = port, wire
+        self._sent = wire.sent
+
+    def __getattr__(self, name):
+        return getattr(self._port, name)
+
+    def receive(self):
+        found, until = self._port.receive(), time.monotonic() + PATIENCE
+        while not found and self._wire.sent > self._sent and time.monotonic() < until:
+            time.sleep(0.0005)
+            found = self._port.receive()
+        self._sent = self._wire.sent
+        return found
+
+
 class Lab:
     """Both sides of the wires on one clock, and all that the keeper says."""
 
@@ -123,7 +148,7 @@ class Lab:
             Station(JumpingClock(each.device), FaultyWire(each.wire, seed))
             for each in self.emulated.sensors
         ]
-        self.keeper = keeper_of(self.emulated.testbed())
+        self.keeper = keeper_of(self.emulated.testbed(), self._open)
         self.clock = PlannedClock(self.emulated, tick)
         self.bench = RealBench(self.keeper, self.clock)
         self.events = []
@@ -136,6 +161,14 @@ class Lab:
     @property
     def imu(self):
         return self.emulated.sensors[0]
+
+    def _open(self, address):
+        port = open_port(address)
+        if not address.address.startswith("ws:"):
+            return port
+        stations = (*self.emulated.boards, *self.emulated.sensors)
+        (wire,) = (each.wire for each in stations if each.wire.address == address.address)
+        return ThreadedPort(port, wire)
 
     def wait(self, seconds):
         """Let time pass, whether sensors give rows or not."""

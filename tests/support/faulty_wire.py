@@ -14,6 +14,7 @@ class FaultyWire:
         self.address = wire.address
         self.spoil = None
         self.last = b""
+        self.sent = 0  # messages
 
     def receive(self):
         return b"" if self._wire is None else self._wire.receive()
@@ -30,6 +31,7 @@ class FaultyWire:
         if self.spoil is not None and data:
             data = self.spoil(data, self)
         self.last = data or self.last
+        self.sent += bool(data)
         if self._wire is not None:
             self._wire.send(data)
 

@@ -98,7 +98,6 @@ def test_each_sensor_returns_the_rows_given_to_its_remote_side(driver):
         report = device.messages
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(device, "messages", lambda rows: reported.append(rows) or report(rows))
-            found.wait(0.5)  # a WebSocket's rows go through a thread, and may be late by some ticks
             found.bench.read(0.0)
             observed = found.bench.read(2.0)
         (link,) = found.keeper.links.sensors
