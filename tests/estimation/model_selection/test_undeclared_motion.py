@@ -67,7 +67,7 @@ def check_found(found, terms, coefficients, com):
     assert not found.events
 
 
-@pytest.mark.parametrize("spin", [0.0, SPIN])
+@pytest.mark.parametrize("spin", thorough.some([0.0, SPIN], 1))
 def test_a_drift_is_found_and_its_declaration_stated(spin):
     """1 um/min for four minutes, at rest or spinning: within 4 sd, com too; nothing is an event."""
     platform, way, record, testbed = moving(0, spin, drift)
@@ -85,7 +85,7 @@ def thermometer(noise: float) -> Samples:
     return Samples(t, np.round(21.3 + warmth(t) + error, 3)[:, None])
 
 
-@pytest.mark.parametrize("spin", [0.0, SPIN])
+@pytest.mark.parametrize("spin", thorough.some([SPIN, 0.0], 1))
 def test_a_lamps_warmth_is_found_by_the_recorded_temperature(spin):
     """3 um in minutes, of a lamp that goes on at 40 s: within 4 sd, com too; no events."""
     platform, way, record, testbed = moving(0, spin, lambda t: THERMAL * warmth(t))
