@@ -114,24 +114,24 @@ class JumpingClock:
 
 
 class ThreadedPort:
-    """Stands before a port whose messages go through a thread: a message sent is waited for.
+    """Stands before a port whose messages go through a thread: each one sent is waited for.
 
-    On the lab's clock it is there within its tick, however busy the computer is.
+    On the lab's clock all are there within their tick, however busy the computer is.
     """
 
     def __init__(self, port, wire):
         self._port, self._wire = port, wire
-        self._sent = wire.sent
+        self._taken = wire.sent
 
     def __getattr__(self, name):
         return getattr(self._port, name)
 
     def receive(self):
         found, until = self._port.receive(), time.monotonic() + PATIENCE
-        while not found and self._wire.sent > self._sent and time.monotonic() < until:
+        while self._taken + len(found) < self._wire.sent and time.monotonic() < until:
             time.sleep(0.0005)
-            found = self._port.receive()
-        self._sent = self._wire.sent
+            found += self._port.receive()
+        self._taken = self._wire.sent
         return found
 
 
