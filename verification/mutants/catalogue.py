@@ -416,7 +416,7 @@ HARDWARE = _of(
      "app/commands/test_captured_bytes.py"),
     ("links/captured_rows.py", "if stamp < clock.last:", "if stamp < 0 * clock.last:",
      "app/commands/test_captured_bytes.py"),
-    ("bench/stop_signals.py", "put_back(others)", "put_back(())",
+    ("bench/stop_signals.py", "while missing:", "if missing:",
      "hardware/bench/test_atomic_message.py"),
     ("bench/atomic_message.py", "for number in before:", "for number in ():",
      "hardware/bench/test_atomic_message.py"),

@@ -1,12 +1,13 @@
 """A message is whole before a signal to stop takes effect, and the signal is not forgotten."""
 
 import signal
+import sys
 import threading
 
 import pytest
 
 from equipoise.hardware.bench.atomic_message import whole_message
-from equipoise.hardware.bench.stop_signals import STOPPING
+from equipoise.hardware.bench.stop_signals import STOPPING, put_back
 
 
 def interrupted(done):
@@ -51,18 +52,32 @@ def test_what_is_ignored_stays_ignored(number):
         signal.signal(number, before)
 
 
-def test_a_signal_while_handlers_are_put_back_leaves_none_behind(monkeypatch):
+class Interruption:
+    """Ctrl-C at one line of a function: the ``moment``-th that runs after Ctrl-C works again."""
+
+    def __init__(self, function, moment):
+        self.code, self.moments_left = function.__code__, moment
+
+    def __call__(self, frame, event, _):
+        if frame.f_code is not self.code:
+            return None
+        if event == "line" and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            self.moments_left -= 1
+            if self.moments_left == 0:
+                signal.raise_signal(signal.SIGINT)
+        return self
+
+
+@pytest.mark.parametrize("moment", range(1, 1 + 2 * len(STOPPING)))
+def test_a_signal_while_handlers_are_put_back_leaves_none_behind(moment):
     """Ctrl-C works again already while SIGTERM is still held back."""
     before = [signal.getsignal(number) for number in STOPPING]
-    set_handler = signal.signal
-
-    def interrupted_then(number, handler):
-        set_handler(number, handler)
-        if handler is signal.default_int_handler:
-            signal.raise_signal(signal.SIGINT)
-
-    with pytest.raises(KeyboardInterrupt), whole_message():
-        monkeypatch.setattr(signal, "signal", interrupted_then)
+    tracer = sys.gettrace()
+    try:
+        with pytest.raises(KeyboardInterrupt), whole_message():
+            sys.settrace(Interruption(put_back, moment))
+    finally:
+        sys.settrace(tracer)
     assert [signal.getsignal(number) for number in STOPPING] == before
 
 

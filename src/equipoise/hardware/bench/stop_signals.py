@@ -43,12 +43,16 @@ def handled(number: int | None, handler: Handler) -> Generator[None]:
 def put_back(before: Sequence[tuple[int, Any]]) -> None:
     """Give each signal its handler of before, the others too where one of these raises meanwhile.
 
-    The first of them may be called before the second is there; what it raises comes out in the end.
+    The first of them may be called before the second is there, at any of these lines: what it
+    raises comes out in the end.
     """
-    if not before:
-        return
-    (number, handler), *others = before
-    try:
-        signal.signal(number, signal.SIG_DFL if handler is None else handler)
-    finally:
-        put_back(others)
+    missing, raised = dict(before), None
+    while missing:
+        try:
+            for number, handler in tuple(missing.items()):
+                signal.signal(number, signal.SIG_DFL if handler is None else handler)
+                del missing[number]
+        except BaseException as error:
+            raised = error
+    if raised is not None:
+        raise raised
