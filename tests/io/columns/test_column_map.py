@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from equipoise.io.columns.axis_permutation import TO_Z_UP, axes_matrix
 from equipoise.io.columns.column_map_file import read_column_map
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import conjugate, exponential, from_euler321, from_matrix, to_matrix
 from equipoise.model.errors import InputError
@@ -51,7 +52,7 @@ def write(tmp_path, text: str, q=Q, extra: str = "") -> tuple[str, str]:
 def read(tmp_path, text: str, q=Q, extra: str = ""):
     """Read a foreign table through a declared map."""
     table, columns = write(tmp_path, text, q, extra)
-    return read_recording(table, read_column_map(columns))
+    return read_recording(table, ReadOptions(columns=read_column_map(columns)))
 
 
 def test_declared_units_become_si(tmp_path) -> None:
@@ -107,7 +108,7 @@ def test_skipped_rows_separator_and_decimal_comma_are_declared(tmp_path) -> None
     text = Path(table).read_text()
     foreign = "1;2;3\n4;5;6\n" + text.replace(",", ";").replace(".", ",")
     (tmp_path / "r.csv").write_text(foreign)
-    recording = read_recording(table, read_column_map(columns))
+    recording = read_recording(table, ReadOptions(columns=read_column_map(columns)))
     np.testing.assert_array_equal(recording.attitude.values, Q)
 
 

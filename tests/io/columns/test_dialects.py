@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.errors import InputError
@@ -30,7 +31,7 @@ def csv_of(header: str, *columns: np.ndarray, separator: str = ",") -> str:
 def read(tmp_path, text: str, dialect: str | None = None):
     """Write and read a table."""
     (tmp_path / "r.csv").write_text(text)
-    return read_recording(tmp_path / "r.csv", dialect)
+    return read_recording(tmp_path / "r.csv", ReadOptions(dialect))
 
 
 def optitrack(q: np.ndarray = Q) -> str:

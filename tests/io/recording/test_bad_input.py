@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.recording.frame_check import check_frame
 from equipoise.io.recording.recording_file import check_names, read_recording, write_recording
 from equipoise.io.testbed.presets import read_preset
@@ -114,7 +115,7 @@ def test_an_unknown_dialect_names_the_nearest(tmp_path) -> None:
     """A misspelt dialect is answered with the right one."""
     (tmp_path / "run.csv").write_text(GOOD)
     with pytest.raises(InputError, match="did you mean 'optitrack'"):
-        read_recording(tmp_path / "run.csv", "optitrak")
+        read_recording(tmp_path / "run.csv", ReadOptions("optitrak"))
 
 
 @pytest.mark.parametrize("dialect", ["optitrack", "ros"])
@@ -122,7 +123,7 @@ def test_a_table_of_another_dialect_is_refused(tmp_path, dialect) -> None:
     """A native table is neither OptiTrack's nor ROS's, whatever is claimed."""
     (tmp_path / "run.csv").write_text(GOOD)
     with pytest.raises(InputError, match="header: found"):
-        read_recording(tmp_path / "run.csv", dialect)
+        read_recording(tmp_path / "run.csv", ReadOptions(dialect))
 
 
 def test_a_mass_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:

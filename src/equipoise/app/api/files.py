@@ -1,9 +1,12 @@
 """Testbeds and recordings, from files and into them."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from equipoise.app.arguments.inputs import layout_of, part_of
+from equipoise.app.arguments.inputs import part_of, read_options
+from equipoise.app.arguments.options import Reading
+from equipoise.io.columns.read_options import BAD_ROWS
 from equipoise.io.recording import recording_file
 from equipoise.io.testbed import testbed_file
 from equipoise.io.testbed.presets import read_preset
@@ -38,6 +41,10 @@ def read_recording(
     *,
     dialect: str | None = None,
     columns: str | Path | None = None,
+    topics: Sequence[str] = (),
+    body: str | None = None,
+    instance: int | None = None,
+    bad_rows: float = BAD_ROWS,
     start: float | None = None,
     end: float | None = None,
 ) -> Recording:
@@ -51,6 +58,14 @@ def read_recording(
         How to read a table: native, optitrack or ros. None: by its header.
     columns
         Column map (TOML) for a table of any other kind.
+    topics
+        Topics of a log to take, where it has several.
+    body
+        Body of a motion-capture export to take, where it has several.
+    instance
+        Which of a log's sensors of one kind to take, counted from 0.
+    bad_rows
+        Share of the rows that may be left out as faulty; with more the file is refused.
     start
         Leave out what is before this time, s. None: keep it; verbs then leave out what a bench's
         own recording has from before the platform was let go.
@@ -63,7 +78,9 @@ def read_recording(
         For what cannot be read, with file, line or column; for ``dialect`` beside ``columns``; for
         times that leave fewer than three rows.
     """
-    recording = recording_file.read_recording(path, layout_of(dialect, columns))
+    named = None if columns is None else str(columns)
+    reading = Reading(None, None, dialect, named, tuple(topics), body, instance, bad_rows)
+    recording = recording_file.read_recording(path, read_options(reading))
     if start is None and end is None:
         return recording
     part = part_of(recording, start, end)

@@ -11,8 +11,8 @@ from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.app.arguments.checks import one_of, positive
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.search_budget import UNLIMITED, Budget
-from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.column_map_file import read_column_map
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.documents.plan_file import read_plan
 from equipoise.io.recording.frame_check import check_frame
 from equipoise.io.recording.recording_file import check_names, read_recording
@@ -80,27 +80,39 @@ def recording_from(recording: AnyRecording, testbed: Testbed) -> Recording:
     return part_of(fitted(recording, testbed), None, None)
 
 
+def check_of_recording(reading: "Reading", file: object | None, wanted: str) -> None:
+    """Raise InputError if options of a recording are given without the recording."""
+    from equipoise.app.arguments.options import WHOLE
+
+    if file is None and reading != WHOLE:
+        raise InputError("options of a recording", "no recording", wanted)
+
+
 def recording_of(file: str, reading: "Reading") -> Recording:
     """Return a recording as it is, or the part that is asked for."""
-    recording = read_recording(file, layout_of(reading.dialect, reading.columns, "--"))
+    recording = read_recording(file, read_options(reading, "--"))
     whole = reading.from_s is None and reading.to_s is None
     return recording if whole else part_of(recording, reading.from_s, reading.to_s)
 
 
-def fitting_recording_of(file: str, reading: "Reading", testbed: Testbed) -> Recording:
+def fitting_recording_of(file: str | Path, reading: "Reading", testbed: Testbed) -> Recording:
     """Return the part asked for of a recording that fits a testbed."""
-    layout = layout_of(reading.dialect, reading.columns, "--")
-    recording = fitted(read_recording(file, layout), testbed)
+    recording = fitted(read_recording(file, read_options(reading, "--")), testbed)
     return part_of(recording, reading.from_s, reading.to_s)
 
 
-def layout_of(
-    dialect: str | None, columns: str | Path | None, dashes: str = ""
-) -> str | ColumnMap | None:
-    """Return how a table is read; ``dashes`` stand before the options' names in an error."""
-    if dialect is not None and columns is not None:
+def read_options(reading: "Reading", dashes: str = "") -> ReadOptions:
+    """Return how a file is read; ``dashes`` stand before the options' names in an error."""
+    if reading.dialect is not None and reading.columns is not None:
         raise InputError(f"{dashes}dialect and {dashes}columns", "both", "one of them")
-    return dialect if columns is None else read_column_map(columns)
+    if not 0 <= reading.bad_rows < 1:
+        wanted = "a share of the rows: at least 0, less than 1"
+        raise InputError(
+            f"{dashes}bad{'-' if dashes else '_'}rows", f"{reading.bad_rows:g}", wanted
+        )
+    columns = None if reading.columns is None else read_column_map(reading.columns)
+    return ReadOptions(reading.dialect, columns, reading.topic, reading.body, reading.instance,
+                       reading.bad_rows)  # fmt: skip
 
 
 def fitted(recording: Recording, testbed: Testbed) -> Recording:

@@ -1,11 +1,12 @@
 """Kinds of options with their defaults in help, and the options that several commands share."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
+from equipoise.io.columns.read_options import BAD_ROWS
 from equipoise.model.errors import InputError
 
 
@@ -89,12 +90,29 @@ class Reading:
         How to read the table: native, optitrack or ros. Left out: by its header.
     columns
         Column map (TOML) for a table of any other kind.
+    topic
+        Topic of a log to take, where it has several. May be repeated.
+    body
+        Body of a motion-capture export to take, where it has several.
+    instance
+        Which of a log's sensors of one kind to take, counted from 0.
+    bad_rows
+        Share of the rows that may be left out as faulty; with more the file is refused.
     """
 
     from_s: float | None = None
     to_s: float | None = None
     dialect: str | None = None
     columns: str | None = None
+    topic: Names = ()
+    body: str | None = None
+    instance: Whole | None = None
+    bad_rows: float = BAD_ROWS
+
+    @property
+    def whole(self) -> "Reading":
+        """Return how another recording of the same kind is read as a whole."""
+        return replace(self, from_s=None, to_s=None)
 
 
 WHOLE = Reading()

@@ -72,7 +72,7 @@ def assess(
     goal = vector("--target-um", target_um, UM)
     check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
-    earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
+    earlier = None if before is None else fitting_recording_of(before, reading.whole, bed)
     with busy("assessing", announce=False):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.assessment import Recordings, run

@@ -4,7 +4,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import Flag, Whole
+from equipoise.app.arguments.options import WHOLE, Flag, Reading, Whole
 from equipoise.app.console.terminal import announced, busy, stdout
 from equipoise.model.errors import InputError
 
@@ -22,6 +22,7 @@ def dashboard(
     testbed: str | None = None,
     seed: Whole = 1,
     bench: Flag = False,
+    reading: Reading = WHOLE,
     port: Whole = 8080,
     expose: str | None = None,
 ) -> int:
@@ -54,7 +55,7 @@ def dashboard(
         raise InputError("--port", str(port), "0 to 65535")
     if expose is not None and expose in EVERYWHERE:
         raise InputError("--expose", f"'{expose}'", "one address of this computer")
-    opening = _opening(shown, testbed, seed_of(seed), bench)
+    opening = _opening(shown, testbed, seed_of(seed), bench, reading)
     with busy("starting the dashboard", announce=False):
         from equipoise.app.dashboard.server.session import open_session
 
@@ -67,10 +68,15 @@ def dashboard(
     return 0
 
 
-def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Opening":
+def _opening(
+    shown: str, testbed: str | None, seed: int, bench: bool, reading: Reading
+) -> "Opening":
     """Return what to begin with: a run's folder, a recording, or a testbed."""
-    from equipoise.app.arguments.inputs import fitting_recording_of, testbed_from
-    from equipoise.app.arguments.options import WHOLE
+    from equipoise.app.arguments.inputs import (
+        check_of_recording,
+        fitting_recording_of,
+        testbed_from,
+    )
     from equipoise.app.bench.emulation import hardware_of
     from equipoise.app.dashboard.protocol.data_folder import data_folder
     from equipoise.app.dashboard.runner.runner_process import Opening
@@ -83,6 +89,7 @@ def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Openin
     if testbed is None and _is_recording(path):
         raise InputError("--testbed", "none", f"the testbed of which {shown} is a recording")
     if testbed is None:
+        check_of_recording(reading, None, "a recording to show")
         bed = announced(testbed_from(shown))
         if bench:
             hardware_of(bed)
@@ -90,7 +97,8 @@ def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Openin
     if bench:
         raise InputError("--bench", "a recording", "a testbed")
     bed = announced(testbed_from(testbed))
-    return Opening(bed, data_folder(), seed, False, fitting_recording_of(shown, WHOLE, bed), shown)
+    recording = fitting_recording_of(shown, reading, bed)
+    return Opening(bed, data_folder(), seed, False, recording, shown)
 
 
 def _is_recording(path: Path) -> bool:

@@ -3,7 +3,14 @@
 from pathlib import Path
 from typing import Literal
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Seeking, Whole
+from equipoise.app.arguments.options import (
+    NOTHING_STATED,
+    WHOLE,
+    Json,
+    Reading,
+    Seeking,
+    Whole,
+)
 from equipoise.app.console.terminal import announced
 
 
@@ -17,6 +24,7 @@ def plan(
     moves: Whole = 3,
     max_rate_deg_s: float = 10.0,
     prior_record: Path | None = None,
+    reading: Reading = WHOLE,
     seeking: Seeking = NOTHING_STATED,
     trials: Whole = 2400,
     seed: Whole = 1,
@@ -57,7 +65,12 @@ def plan(
         Folder for report and plan.json.
     """
     from equipoise.app.arguments.checks import check_outputs, not_negative, positive, seed_of
-    from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
+    from equipoise.app.arguments.inputs import (
+        check_of_recording,
+        fitting_recording_of,
+        options_of,
+        testbed_from,
+    )
     from equipoise.model.units import DEG, in_si
 
     bed, requested, seed = announced(testbed_from(testbed)), options_of(seeking), seed_of(seed)
@@ -66,7 +79,8 @@ def plan(
     count = int(not_negative("--moves", moves))
     tries = int(positive("--trials", trials))
     check_outputs(out, write)
-    earlier = None if prior_record is None else fitting_recording_of(str(prior_record), WHOLE, bed)
+    check_of_recording(reading, prior_record, "--prior-record")
+    earlier = None if prior_record is None else fitting_recording_of(prior_record, reading, bed)
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.runs.planning import Request, run
     from equipoise.app.runs.terminal_waiting import AT_TERMINAL

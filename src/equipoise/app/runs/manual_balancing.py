@@ -170,7 +170,8 @@ def opened(session: Session, bed: Testbed, requested: Session, where: str) -> Fi
 
 def recording_of(each: Round, bed: Testbed, where: str) -> Recording:
     """Return the recording of a round; it must be the one that was used then."""
-    reading = Reading(each.from_s, each.to_s, each.dialect, each.columns)
+    reading = Reading(each.from_s, each.to_s, each.dialect, each.columns, tuple(each.topic),
+                      each.body, each.instance, each.bad_rows)  # fmt: skip
     recording = fitting_recording_of(each.recording, reading, bed)
     if each.sha256 and recording.sha256 != each.sha256:
         wanted = "the recording as it was when it was added"
@@ -181,7 +182,9 @@ def recording_of(each: Round, bed: Testbed, where: str) -> Recording:
 def with_recording(filed: Filed, file: str, reading: Reading) -> Filed:
     """Return a session with one recording more."""
     added = Round(recording=file, from_s=reading.from_s, to_s=reading.to_s,
-                  dialect=reading.dialect, columns=reading.columns, placed=None)  # fmt: skip
+                  dialect=reading.dialect, columns=reading.columns, topic=list(reading.topic),
+                  body=reading.body, instance=reading.instance, bad_rows=reading.bad_rows,
+                  placed=None)  # fmt: skip
     recording = recording_of(added, filed.testbed, file)
     for k, each in enumerate(filed.recordings, 1):
         if each.sha256 == recording.sha256:

@@ -12,6 +12,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from equipoise.io.columns.read_options import BAD_ROWS
 from equipoise.io.files.atomic_file import write_whole
 from equipoise.io.toml.key_types import Table, Triple
 from equipoise.io.toml.read_toml import read_toml
@@ -34,6 +35,10 @@ class Round(Table):
     to_s: float | None = None
     dialect: str | None = None
     columns: str | None = None
+    topic: list[str] = Field([])
+    body: str | None = None
+    instance: int | None = None
+    bad_rows: float = BAD_ROWS
     placed: list[str] | None = Field(None, description="such as '3 x washer at deck:I6'")
 
 

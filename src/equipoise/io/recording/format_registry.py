@@ -7,8 +7,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from equipoise.io.columns.column_map import ColumnMap, Layout
+from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.native_columns import native_columns
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.source_file import read_bytes, text_of
@@ -27,7 +28,8 @@ from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 
 WANTED = "a recording (CSV, Parquet, MCAP, MAT, a bag of ROS, or ULog)"
-Read = Callable[[Path, bytes, Layout], tuple[Table, ColumnMap | None]]  # None: by the header
+# The map is None where the header says what columns are.
+Read = Callable[[Path, bytes, ReadOptions], tuple[Table, ColumnMap | None]]
 Write = Callable[[Recording, Path], None]
 
 
@@ -69,18 +71,18 @@ def format_to_write(path: Path) -> Write:
     raise InputError(str(path), f"suffix '{suffix}'", wanted)
 
 
-def _read_text(path: Path, content: bytes, layout: Layout) -> tuple[Table, None]:
-    return cut(text_of(content, path, WANTED), str(path), layout), None
+def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+    return cut(text_of(content, path, WANTED), str(path), options.layout), None
 
 
 def _table(read: Callable[[bytes, str], Table]) -> Read:
     """Return how a table is read whose columns its header explains."""
-    return lambda path, content, _layout: (read(content, str(path)), None)
+    return lambda path, content, _options: (read(content, str(path)), None)
 
 
 def _log(read: Callable[[bytes, str], tuple[Table, ColumnMap]]) -> Read:
     """Return how a log is read, which says itself what its columns are."""
-    return lambda path, content, _layout: read(content, str(path))
+    return lambda path, content, _options: read(content, str(path))
 
 
 def _columns(made: Callable[[Mapping[str, Series1], str], str | bytes]) -> Write:

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Layout
+from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.dialects import detect, dialect_map
+from equipoise.io.columns.read_options import AS_IT_IS, ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.recording.build_recording import recording_of
 from equipoise.io.recording.format_registry import content_of, format_of, format_to_write
@@ -16,16 +17,14 @@ from equipoise.model.recording import CHANNELS, Recording, Samples
 from equipoise.model.testbed import Testbed
 
 
-def read_recording(path: str | Path, dialect: str | ColumnMap | None = None) -> Recording:
+def read_recording(path: str | Path, options: ReadOptions = AS_IT_IS) -> Recording:
     """Return what a file holds, with notes on all that was set right.
 
-    ``dialect`` is a dialect's name or a column map; None goes by the header.
     InputError says what cannot be used.
     """
     content = content_of(Path(path))
-    layout = dialect.layout if isinstance(dialect, ColumnMap) else Layout()
-    table, known = format_of(Path(path), content).read(Path(path), content, layout)
-    recording = recording_of(table, _columns(table, known, dialect))
+    table, known = format_of(Path(path), content).read(Path(path), content, options)
+    recording = recording_of(table, _columns(table, known, options))
     return replace(recording, sha256=hashlib.sha256(content).hexdigest())
 
 
@@ -50,10 +49,11 @@ def check_names(recording: Recording, testbed: Testbed) -> None:
                 raise InputError(f"{recording.source}, header", f"{kind} '{name}'", wanted + of)
 
 
-def _columns(table: Table, known: ColumnMap | None, dialect: str | ColumnMap | None) -> ColumnMap:
+def _columns(table: Table, known: ColumnMap | None, options: ReadOptions) -> ColumnMap:
     """Return what a table's columns mean: as given, as its format states, or by the header."""
-    if isinstance(dialect, ColumnMap):
-        return dialect
+    dialect = options.dialect
+    if options.columns is not None:
+        return options.columns
     if known is not None and dialect is not None:
         found = f"dialect '{dialect}' for a log that says itself what it holds"
         raise InputError(table.source, found, "no dialect, or a column map (--columns)")

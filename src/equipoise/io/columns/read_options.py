@@ -1,0 +1,27 @@
+"""How a file is to be read: what a person states where the file itself does not."""
+
+from dataclasses import dataclass
+
+from equipoise.io.columns.column_map import ColumnMap, Layout
+
+BAD_ROWS = 0.05  # share of a file's rows that may be left out as faulty (chosen)
+
+
+@dataclass(frozen=True, slots=True)
+class ReadOptions:
+    """What is stated of a file; what is left out is detected, or refused where it is open."""
+
+    dialect: str | None = None  # native, optitrack, ros
+    columns: ColumnMap | None = None  # goes before a dialect
+    topics: tuple[str, ...] = ()  # of a log: those to take
+    body: str | None = None  # of a motion-capture export
+    instance: int | None = None  # of a log's sensors of one kind, counted from 0
+    bad_rows: float = BAD_ROWS  # share of the rows
+
+    @property
+    def layout(self) -> Layout:
+        """Return how a text is cut into cells."""
+        return Layout() if self.columns is None else self.columns.layout
+
+
+AS_IT_IS = ReadOptions()
