@@ -29,6 +29,16 @@ def cut(text: str, source: str, layout: Layout) -> Table:
     """Return the table in a text."""
     separator = layout.separator or _separator(text)
     rows, lines = _rows(text, source, separator)
+    return table_of(rows, lines, source, layout, "," if separator != "," else ".")
+
+
+def table_of(
+    rows: list[list[str]], lines: list[int], source: str, layout: Layout, decimal: str = "."
+) -> Table:
+    """Return the table in rows of cells and their lines, the header among them.
+
+    ``decimal`` is the point of a number unless the layout states another.
+    """
     if not rows:
         raise InputError(source, "nothing but blank lines", "a header and rows of numbers")
     skipped = layout.skip_rows
@@ -39,8 +49,8 @@ def cut(text: str, source: str, layout: Layout) -> Table:
     body, kept, notes = _even(rows[head + 1 :], lines[head + 1 :], len(names), source)
     if not body:
         raise InputError(source, "a header but no rows", "rows of numbers")
-    decimal = layout.decimal or ("," if separator != "," else ".")
-    column = partial(_numbers, cells=tuple(zip(*body, strict=True)), decimal=decimal)
+    cells = tuple(zip(*body, strict=True))
+    column = partial(_numbers, cells=cells, decimal=layout.decimal or decimal)
     return Table(source, names, len(body), column, tuple(kept), notes)
 
 
