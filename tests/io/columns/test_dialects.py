@@ -28,10 +28,10 @@ def csv_of(header: str, *columns: np.ndarray, separator: str = ",") -> str:
     return "\n".join(text) + "\n"
 
 
-def read(tmp_path, text: str, dialect: str | None = None):
+def read(tmp_path, text: str, dialect: str | None = None, **stated):
     """Write and read a table."""
     (tmp_path / "r.csv").write_text(text)
-    return read_recording(tmp_path / "r.csv", ReadOptions(dialect))
+    return read_recording(tmp_path / "r.csv", ReadOptions(dialect, **stated))
 
 
 def optitrack(q: np.ndarray = Q) -> str:
@@ -159,9 +159,9 @@ def test_backward_rows_of_other_programs_are_left_out_and_counted(tmp_path) -> N
     late = T.copy()
     late[6] = 0.33
     header = "__time," + ros_names("/", "/imu")
-    recording = read(tmp_path, csv_of(header, late, np.roll(Q, -1, axis=1), W))
+    recording = read(tmp_path, csv_of(header, late, np.roll(Q, -1, axis=1), W), bad_rows=0.1)
     assert len(recording.rate) == 11
-    assert any("1 row went back in time, first at line 8" in note for note in recording.notes)
+    assert any("1 row whose time is out of order, line 8" in note for note in recording.notes)
     anew = np.append(T[:4] + 50, T[:8])
     with pytest.raises(InputError, match="line 6: found time going backwards"):
         read(tmp_path, csv_of(header, anew, np.roll(Q, -1, axis=1), W))

@@ -1,10 +1,38 @@
 """A table of a file, whatever its format: named columns of numbers that are read when asked for."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from equipoise.model.arrays import Series1
-from equipoise.model.errors import InputError
+import numpy as np
+
+from equipoise.io.columns.row_faults import FaultyRows
+from equipoise.model.arrays import Bools, Ints, Series1
+
+BLANK = "a blank cell"
+
+
+def no_rows() -> Ints:
+    """Return no row."""
+    return np.zeros(0, dtype=np.int64)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Numbers:
+    """One column."""
+
+    values: Series1  # NaN where there is no finite number
+    nan: Ints = field(default_factory=no_rows)  # rows whose cell says that it is no number
+    garbage: Ints = field(default_factory=no_rows)  # rows whose cell holds something else
+
+
+def finite(values: Series1, blank: Bools | None = None) -> Numbers:
+    """Return a column of numbers as they are in memory; where it is ``blank`` nothing is said."""
+    infinite = np.flatnonzero(np.isinf(values))
+    nan = np.isnan(values)
+    if blank is not None:
+        nan &= ~blank
+    clean = np.where(np.isfinite(values), values, np.nan) if len(infinite) else values
+    return Numbers(clean, np.flatnonzero(nan), infinite)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -18,9 +46,12 @@ class Table:
     source: str  # the file
     names: tuple[str, ...]  # of the columns
     count: int  # rows
-    column: Callable[["Table", str], Series1]  # NaN where blank; InputError for what is no number
+    column: Callable[["Table", str], Numbers]  # InputError for a column that is none of numbers
     lines: tuple[int, ...] = ()  # the line of the file each row ends on; none: rows are counted
     notes: tuple[str, ...] = ()  # what reading the table had to leave out
+    faulty: tuple[FaultyRows, ...] = ()  # rows that hold nothing: a line that was cut, say
+    cell: Callable[[str, int], str] | None = None  # what a cell holds, as text
+    blank: str = BLANK  # how this kind of file says that there is no reading
 
     def __len__(self) -> int:
         """Return the number of rows."""
@@ -30,11 +61,11 @@ class Table:
         """Return where a row is, such as 'line 7' or, counted from 1, 'row 7'."""
         return f"line {self.lines[row]}" if self.lines else f"row {row + 1}"
 
-    def numbers(self, name: str) -> Series1:
-        """Return a column, NaN where a cell is blank; InputError names line and column."""
+    def numbers(self, name: str) -> Numbers:
+        """Return a column; InputError if it is none of numbers."""
         return self.column(self, name)
 
-    def not_a_number(self, row: int, name: str, found: object, blank: str) -> InputError:
-        """Return the error for a cell that is neither a finite number nor ``blank``."""
-        where = f"{self.source}, {self.place(row)}, column '{name}'"
-        return InputError(where, f"'{found}'", f"a finite number, or {blank} for no reading")
+    def found(self, name: str, row: int) -> str:
+        """Return what stands in a cell that holds no finite number, as an error quotes it."""
+        text = "" if self.cell is None else self.cell(name, row).strip()
+        return f"'{text}'" if text else BLANK

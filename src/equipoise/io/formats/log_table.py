@@ -26,7 +26,8 @@ from equipoise.io.columns.native_columns import (
     TIME,
     TORQUE,
 )
-from equipoise.io.columns.table import Table
+from equipoise.io.columns.row_faults import FaultyRows, RowFault
+from equipoise.io.columns.table import Table, finite
 from equipoise.io.formats.clock_units import seconds
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError
@@ -65,19 +66,28 @@ def log_table(
 
     InputError if there is no row.
     """
-    tidy = [_tidy(channel) for channel in channels]
-    full = [(channel, reported) for channel, reported in tidy if len(channel.ns)]
-    if not full:
+    tidy = [_tidy(channel) for channel in channels if len(channel.ns)]
+    if not tidy:
         raise InputError(source, "no row of attitude or rate", "a log of a motion")
-    times = np.unique(np.concatenate([channel.ns for channel, _ in full]))
+    times = np.unique(np.concatenate([each.channel.ns for each in tidy]))
     zero = int(times[0]) if zero_ns is None else zero_ns
     columns: dict[str, Series1] = {TIME: seconds(times - zero)}
-    for channel, _ in full:
-        wide = np.full((len(times), channel.values.shape[1]), np.nan)
-        wide[np.searchsorted(times, channel.ns)] = channel.values
-        columns.update(dict(zip(channel.columns, wide.T, strict=True)))
-    notes = (*notes, *(note for _, reported in full for note in reported))
-    return Table(source, tuple(columns), len(times), lambda _, name: columns[name], notes=notes)
+    for each in tidy:
+        wide = np.full((len(times), each.channel.values.shape[1]), np.nan)
+        wide[np.searchsorted(times, each.channel.ns)] = each.channel.values
+        columns.update(dict(zip(each.channel.columns, wide.T, strict=True)))
+    again = [f for each in tidy for f in _repeated(each, times, source)]
+    late = tuple(note for each in tidy for note in each.notes)
+    return Table(
+        source,
+        tuple(columns),
+        len(times),
+        lambda _, name: finite(columns[name], np.isnan(columns[name])),
+        notes=(*notes, *late),
+        faulty=tuple(again),
+        cell=lambda name, row: str(columns[name][row]),
+        blank="nothing",
+    )
 
 
 def log_map(
@@ -103,15 +113,30 @@ def log_map(
     )
 
 
-def _tidy(channel: LogChannel) -> tuple[LogChannel, tuple[str, ...]]:
-    """Return a channel in order of time, each time once, without rows that hold no number."""
-    sound = (np.abs(channel.values) < LARGEST).all(axis=1)  # not a number is not either
-    ns, values = channel.ns[sound], channel.values[sound]
-    times, first = np.unique(ns, return_index=True)
-    reported = (
-        (len(channel.ns) - len(ns), "held a value that is no number; left out"),
-        (int((np.diff(ns) < 0).sum()), "came late; put in order of time"),
-        (len(ns) - len(times), "had the time of another; left out"),
-    )
-    notes = tuple(f"{channel.name}: {count} rows {what}." for count, what in reported if count)
-    return LogChannel(channel.name, times, values[first], channel.names), notes
+@dataclass(frozen=True, slots=True, eq=False)
+class _Tidy:
+    """A channel in order of time, each time once; what is no number is infinite."""
+
+    channel: LogChannel
+    repeated: Ints  # ns, times of rows that came again
+    notes: tuple[str, ...]
+
+
+def _tidy(channel: LogChannel) -> _Tidy:
+    sound = np.abs(channel.values) < LARGEST  # not a number is not either
+    values = np.where(sound, channel.values, np.inf)
+    times, first = np.unique(channel.ns, return_index=True)
+    late = int((np.diff(channel.ns) < 0).sum())
+    notes = (f"{channel.name}: {late} rows came late; put in order of time.",) if late else ()
+    again = np.delete(channel.ns, first)
+    return _Tidy(LogChannel(channel.name, times, values[first], channel.names), again, notes)
+
+
+def _repeated(tidy: _Tidy, times: Ints, source: str) -> list[FaultyRows]:
+    """Return the rows whose time another had, as rows of the table at those times."""
+    if not len(tidy.repeated):
+        return []
+    rows, name = np.searchsorted(times, tidy.repeated), tidy.channel.name
+    where = f"{source}, row {rows[0] + 1}"
+    found, wanted = f"{name}: the same time again", f"a time of its own for each row of {name}"
+    return [FaultyRows(RowFault.REPEATED, rows, where, found, wanted)]

@@ -23,7 +23,7 @@ from typing import Any, cast
 import numpy as np
 from scipy.io import savemat
 
-from equipoise.io.columns.table import Table
+from equipoise.io.columns.table import Numbers, Table, finite
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
@@ -56,7 +56,15 @@ def read_mat(content: bytes, source: str) -> Table:
     if len(lengths) > 1:
         raise InputError(source, f"vectors of {min(lengths)} to {max(lengths)} numbers", WANTED)
     count = lengths.pop()
-    return Table(source, tuple(columns), count, partial(_column, columns=columns))
+    column = partial(_column, columns=columns)
+    return Table(
+        source,
+        tuple(columns),
+        count,
+        column,
+        cell=lambda name, row: str(columns[name][row]),
+        blank="NaN",
+    )
 
 
 def mat_bytes(columns: Mapping[str, Series1]) -> bytes:
@@ -66,12 +74,9 @@ def mat_bytes(columns: Mapping[str, Series1]) -> bytes:
     return stream.getvalue()
 
 
-def _column(table: Table, name: str, columns: Mapping[str, Series1]) -> Series1:
-    """Return a column, NaN where there is no reading."""
-    values = columns[name]
-    for row in np.flatnonzero(np.isinf(values)).tolist():
-        raise table.not_a_number(row, name, values[row], "NaN")
-    return values
+def _column(_table: Table, name: str, columns: Mapping[str, Series1]) -> Numbers:
+    """Return a column; NaN says that there is no reading."""
+    return finite(columns[name])
 
 
 def _vectors(content: bytes) -> dict[str, Series1]:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.table import Table
+from equipoise.io.columns.table import Numbers, Table, finite
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
@@ -26,21 +26,24 @@ def read_parquet(content: bytes, source: str) -> Table:
         names = tuple(arrow.column_names)
     except (OSError, ValueError) as error:
         raise InputError(source, "broken Parquet", "a whole Parquet file") from error
-    return Table(source, names, arrow.num_rows, partial(_numbers, arrow=arrow))
+    column = partial(_numbers, arrow=arrow)
+    cell = partial(_cell, arrow=arrow)
+    return Table(source, names, arrow.num_rows, column, cell=cell, blank="null")
 
 
-def _numbers(table: Table, name: str, arrow: Any) -> Series1:
-    """Return a column, NaN where it is null."""
+def _numbers(table: Table, name: str, arrow: Any) -> Numbers:
+    """Return a column; null says that there is no reading."""
     column = arrow.column(table.names.index(name))
     try:
         values = np.array(column.cast("float64").to_numpy(), dtype=np.float64)
     except (ValueError, NotImplementedError) as error:
         where = f"{table.source}, column '{name}'"
         raise InputError(where, f"values of type {column.type}", "numbers") from error
-    blank = np.array(column.is_null().to_numpy(), dtype=bool)
-    for row in np.flatnonzero(~np.isfinite(values) & ~blank).tolist():
-        raise table.not_a_number(row, name, values[row], "null")
-    return values
+    return finite(values, np.array(column.is_null().to_numpy(), dtype=bool))
+
+
+def _cell(name: str, row: int, arrow: Any) -> str:
+    return str(arrow.column(arrow.column_names.index(name))[row].as_py())
 
 
 def parquet_bytes(columns: Mapping[str, Series1], source: str) -> bytes:

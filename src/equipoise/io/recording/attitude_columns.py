@@ -4,6 +4,7 @@ import numpy as np
 
 from equipoise.io.columns.axis_permutation import TO_Z_UP, axes_matrix
 from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.row_faults import FaultyRows, RowFault
 from equipoise.io.columns.table import Table
 from equipoise.io.recording.channels import Channel
 from equipoise.maths.attitude import (
@@ -15,7 +16,6 @@ from equipoise.maths.attitude import (
     normalise,
 )
 from equipoise.model.arrays import Floats, Series1, Series4
-from equipoise.model.errors import InputError
 
 Notes = tuple[str, ...]
 JUMP = 0.05  # from unit: no rounding does this, so it is not a unit quaternion (chosen)
@@ -47,9 +47,24 @@ def _decimals(values: Floats) -> int:
 
 def quaternions(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Channel, Notes]:
     """Return a quaternion channel set right, with what was set right."""
-    q, notes = _unit(channel, table, columns)
+    q, notes = _unit(channel, table)
     q, flips = _continuous(_in_our_axes(q, columns))
     return Channel(channel.name, channel.t, q, channel.rows), (*notes, *flips)
+
+
+def of_unit_length(
+    channel: Channel, table: Table, columns: ColumnMap
+) -> tuple[Channel, list[FaultyRows]]:
+    """Return the quaternions whose length is one, as far as rounding and means go."""
+    norm = np.linalg.norm(channel.values, axis=1)
+    least = SHORTEST_MEAN if columns.mean_of_frames else 1 - JUMP
+    good = (norm >= least) & (norm <= 1 + JUMP)
+    if good.all():
+        return channel, []
+    rows, found = channel.rows[~good], f"a quaternion of length {norm[~good][0]:.4g}"
+    where = f"{table.source}, {table.place(int(rows[0]))}"
+    wanted = f"length 1 within {JUMP:.0%}"
+    return channel.keep(good), [FaultyRows(RowFault.NOT_UNIT, rows, where, found, wanted)]
 
 
 def euler_angles(channel: Channel, columns: ColumnMap) -> tuple[Channel, Notes]:
@@ -90,15 +105,9 @@ def _continuous(q: Series4) -> tuple[Series4, Notes]:
     return mended, (reported,) if flips else ()
 
 
-def _unit(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Series4, Notes]:
-    """Return quaternions of unit length; InputError names the first that is far from it."""
+def _unit(channel: Channel, table: Table) -> tuple[Series4, Notes]:
+    """Return quaternions of unit length."""
     norm = np.linalg.norm(channel.values, axis=1)
-    least = SHORTEST_MEAN if columns.mean_of_frames else 1 - JUMP
-    bad = np.flatnonzero((norm < least) | (norm > 1 + JUMP))
-    if len(bad):
-        place = f"{table.source}, {table.place(int(channel.rows[bad[0]]))}"
-        found = f"a quaternion of length {norm[bad[0]]:.4g} ({len(bad)} such rows)"
-        raise InputError(place, found, f"length 1 within {JUMP:.0%}")
     if np.abs(norm - 1).max() < ROUNDING:
         return channel.values, ()
     return normalise(channel.values), _norm_note(norm, channel, table)

@@ -1,22 +1,24 @@
 """A table of whatever origin and its column map, to a Recording with notes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
+from equipoise.io.columns.column_map import ColumnMap, Columns
+from equipoise.io.columns.read_options import BAD_ROWS
+from equipoise.io.columns.row_faults import FaultyRows, without_faulty
 from equipoise.io.columns.table import Table
-from equipoise.io.recording.attitude_columns import euler_angles, lengths, quaternions
-from equipoise.io.recording.channels import Channel, in_body_axes, read_channel, read_time
-from equipoise.io.recording.time_stamps import (
-    forward_rows,
-    gap_notes,
-    without_duplicates,
-    without_strays,
+from equipoise.io.recording.attitude_columns import (
+    euler_angles,
+    lengths,
+    of_unit_length,
+    quaternions,
 )
-from equipoise.model.arrays import Ints, Series1
+from equipoise.io.recording.channels import Channel, Rows, columns_of, in_body_axes, read_channel
+from equipoise.io.recording.clock import Clock, clock_of
+from equipoise.io.recording.time_stamps import gap_notes, without_duplicates
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 
@@ -27,91 +29,85 @@ EPOCH = 1e6  # s: a clock beyond twelve days counts from a date, not from the ru
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rows:
-    """The rows of a table that can be used, and their clock."""
+class Found:
+    """A channel, if there is one, what is wrong with its rows, and what was set right."""
 
-    table: Table
-    columns: ColumnMap
-    time: Series1
-    rows: Ints
+    channel: Channel | None = None
+    faulty: tuple[FaultyRows, ...] = ()
+    notes: Notes = ()
 
-    def channel(self, name: str, columns: Columns | None) -> tuple[Channel | None, Notes]:
-        """Return a channel without duplicates and dead columns."""
-        channel = read_channel(name, self.table, columns, self.time, self.rows)
-        if channel is None or columns is None:
-            return None, ()
-        channel, twice = without_duplicates(channel, self.table)
-        if name in SCALARS:
-            return channel, twice  # what never changes is a fact, not a dead column
-        kept, dead = _without_dead(channel, columns, self.columns.native)
-        return kept, (*twice, *dead)
 
-    def named(self, name: str) -> tuple[Channel | None, Notes]:
-        """Return a channel by its name, one of vectors in our body axes."""
-        found: Any = getattr(self.columns, name)
-        columns: Columns | None = _together(found) if name in ("masses", "devices") else found
-        channel, notes = self.channel(name, columns)
-        if name in SCALARS:
-            return channel, notes
-        return in_body_axes(channel, columns, self.columns.body), notes
+def channel_of(source: Rows, name: str) -> Found:
+    """Return a channel without faulty rows, duplicates and dead columns."""
+    columns = columns_of(source.columns, name)
+    if columns is None:
+        return Found()
+    channel, faulty = read_channel(source, name, columns)
+    if not len(channel):
+        return Found(None, tuple(faulty))
+    kept, dead = _without_dead(channel, columns, source.columns.native)
+    if kept is not None and columns is source.columns.quaternion:
+        kept, short = of_unit_length(kept, source.table, source.columns)
+        faulty += short
+    if kept is None or not len(kept):
+        return Found(None, tuple(faulty), dead)
+    kept, twice = without_duplicates(kept, source.table)
+    if name not in ("attitude", *SCALARS):
+        kept = in_body_axes(kept, columns, source.columns.body)
+    return Found(kept, (*faulty, *twice), dead)
 
 
 @np.errstate(invalid="ignore", over="ignore")  # an error names such a number and its row
-def recording_of(table: Table, columns: ColumnMap) -> Recording:
-    """Return what a table holds; InputError if it is too little or makes no sense."""
-    source, order = _rows(table, columns)
-    attitude, norm, of_attitude = _attitude(source)
-    rate, of_rate = source.named("rate")
-    _check_enough(table, attitude, rate)
-    others = {name: source.named(name) for name in CHANNELS if name not in ("attitude", "rate")}
-    found = {"attitude": attitude, "rate": rate, "attitude_norm": norm}
-    found |= {name: channel for name, (channel, _) in others.items()}
-    samples: dict[str, Any] = {name: _samples(channel) for name, channel in found.items()}
-    notes = (of_attitude, of_rate, *(of_channel for _, of_channel in others.values()))
+def recording_of(table: Table, columns: ColumnMap, bad_rows: float = BAD_ROWS) -> Recording:
+    """Return what a table holds; InputError if it is too little or makes no sense.
+
+    At most the share ``bad_rows`` of its rows are left out as faulty.
+    """
+    clock = clock_of(table, columns)
+    source, from_zero = _rows(table, columns, clock)
+    attitude, norm = _attitude(source)
+    others = {name: channel_of(source, name) for name in CHANNELS if name != "attitude"}
+    found = {"attitude": attitude, **others}
+    faulty = (*table.faulty, *clock.faulty, *(f for each in found.values() for f in each.faulty))
+    left_out = without_faulty(table.source, len(table), faulty, bad_rows, table.place)
+    _check_enough(table, attitude.channel, others["rate"].channel)
+    samples: dict[str, Any] = {name: _samples(each.channel) for name, each in found.items()}
+    notes = chain.from_iterable(each.notes for each in found.values())
+    sensors = (attitude.channel, others["rate"].channel)
     return Recording(
         **samples,
-        mass_names=tuple(mass.name for mass in columns.masses) if found["masses"] else (),
-        device_names=tuple(each.name for each in columns.devices) if found["devices"] else (),
+        attitude_norm=_samples(norm),
+        mass_names=tuple(mass.name for mass in columns.masses) if samples["masses"] else (),
+        device_names=tuple(each.name for each in columns.devices) if samples["devices"] else (),
         source=table.source,
         free_from=columns.free_from,
-        notes=(*table.notes, *columns.notes, *order, *chain.from_iterable(notes)),
-        gaps=tuple(note for c in (attitude, rate) if c is not None for note in gap_notes(c)),
+        notes=(*table.notes, *columns.notes, *left_out, *clock.notes, *from_zero, *notes),
+        gaps=tuple(note for c in sensors if c is not None for note in gap_notes(c)),
     )
 
 
-def _rows(table: Table, columns: ColumnMap) -> tuple[Rows, Notes]:
+def _rows(table: Table, columns: ColumnMap, clock: Clock) -> tuple[Rows, Notes]:
     """Return the usable rows, their clock started at zero if it counts from a date."""
-    time = read_time(table, columns)
-    rows, notes = forward_rows(table, columns, time)
-    if columns.native:
-        return Rows(table, columns, time, rows), notes
-    rows, strays = without_strays(table, time, rows)
-    notes = (*notes, *strays)
-    start = float(time[rows[0]])
-    if abs(start) < EPOCH:
-        return Rows(table, columns, time, rows), notes
+    start = float(clock.time[clock.rows[0]])
+    if columns.native or abs(start) < EPOCH:
+        return Rows(table, columns, clock.time, clock.rows), ()
     reported = f"The clock starts at {start:.3f} s; this is taken as zero."
-    return Rows(table, columns, time - start, rows), (*notes, reported)
+    return Rows(table, columns, clock.time - start, clock.rows), (reported,)
 
 
-def _attitude(source: Rows) -> tuple[Channel | None, Channel | None, Notes]:
+def _attitude(source: Rows) -> tuple[Found, Channel | None]:
     """Return the attitude, whether it came as quaternions or as angles, and the lengths found."""
     columns = source.columns
-    angles = None if columns.euler is None else columns.euler.columns
-    raw, notes = source.channel("attitude", angles or columns.quaternion)
+    found = channel_of(source, "attitude")
+    raw = found.channel
     if raw is None:
-        return None, None, notes
+        return found, None
+    angles = columns.euler is not None
     mended, reported = (
         euler_angles(raw, columns) if angles else quaternions(raw, source.table, columns)
     )
-    return mended, None if angles else lengths(raw), (*notes, *reported)
-
-
-def _together(columns: tuple[NamedColumn, ...]) -> Columns | None:
-    """Return the columns of all masses, or of all devices, as one group."""
-    if not columns:
-        return None
-    return Columns(tuple(c.column for c in columns), tuple(c.factor for c in columns))
+    whole = replace(found, channel=mended, notes=(*found.notes, *reported))
+    return whole, None if angles else lengths(raw)
 
 
 def _check_enough(table: Table, *sensors: Channel | None) -> None:
@@ -132,6 +128,8 @@ def _without_dead(channel: Channel, columns: Columns, native: bool) -> tuple[Cha
     A foreign gyro with one dead axis is left out as a whole: two true axes and a false zero
     mislead every estimator. In a native file a zero axis can be an exact simulation's.
     """
+    if channel.name in SCALARS:
+        return channel, ()  # what never changes is a fact, not a dead column
     dead = np.abs(channel.values).max(axis=0) == 0
     names = " ".join(n for n, zero in zip(columns.names, dead.tolist(), strict=True) if zero)
     misleads = channel.name == "rate" and not native and bool(dead.any())

@@ -1,16 +1,18 @@
 """A table and its column map, to channels in SI that still know which row they come from."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.io.columns.axis_permutation import axes_matrix
-from equipoise.io.columns.column_map import ColumnMap, Columns
-from equipoise.io.columns.table import Table
-from equipoise.model.arrays import Floats, Ints, Series1
+from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
+from equipoise.io.columns.row_faults import FaultyRows, RowFault
+from equipoise.io.columns.table import BLANK, Numbers, Table
+from equipoise.model.arrays import Bools, Floats, Ints, Series1
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.recording import Samples
+from equipoise.model.recording import CHANNELS, Samples
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,59 +37,116 @@ class Channel:
         return Samples(self.t, self.values)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """The rows of a table that can be used, and their clock."""
+
+    table: Table
+    columns: ColumnMap
+    time: Series1  # s, of every row
+    rows: Ints
+
+    def alive(self) -> Bools:
+        """Say of each row of the table whether some channel has a reading."""
+        groups = [columns_of(self.columns, name) for name in CHANNELS]
+        full = [_full(_numbers(self.table, each)) for each in groups if each is not None]
+        return np.logical_or.reduce(full)
+
+
+def columns_of(columns: ColumnMap, name: str) -> Columns | None:
+    """Return the columns of a channel by its name."""
+    if name == "attitude":
+        return columns.quaternion if columns.euler is None else columns.euler.columns
+    found: Any = getattr(columns, name)
+    return _together(found) if name in ("masses", "devices") else found
+
+
+def _together(columns: tuple[NamedColumn, ...]) -> Columns | None:
+    """Return the columns of all masses, or of all devices, as one group."""
+    if not columns:
+        return None
+    return Columns(tuple(c.column for c in columns), tuple(c.factor for c in columns))
+
+
 def read_time(table: Table, columns: ColumnMap) -> Series1:
-    """Return the clock of every row, s, NaN where it is blank.
+    """Return the clock of every row, s, NaN where there is none.
 
     A clock that counts from 1970 would lose its nanoseconds in a double: whole seconds are taken
     off before the parts are added.
     """
-    parts = [_numbers(table, c)[:, 0] for c in columns.time]
-    if len(parts) > 1 and len(table):
+    parts = [_numbers(table, c)[0].values for c in columns.time]
+    if len(parts) > 1 and np.isfinite(parts[0]).any():
         parts[0] = parts[0] - np.nanmin(parts[0])
-    time = np.sum(
+    return np.sum(
         [part * np.array(c.factor) for part, c in zip(parts, columns.time, strict=True)], axis=0
     )
-    blank = np.flatnonzero(np.isnan(time))
-    if columns.native and len(blank):
-        where = f"{table.source}, {table.place(int(blank[0]))}, column 'time_s'"
-        raise InputError(where, "a blank cell", "a time in s")
-    return time
 
 
-def read_channel(
-    name: str, table: Table, columns: Columns | None, time: Series1, rows: Ints
-) -> Channel | None:
-    """Return a channel at the given rows, without those where it is blank; None if it is absent."""
-    if columns is None:
-        return None
-    values = _numbers(table, columns)[rows]
-    blank = np.isnan(values)
-    full = ~blank.any(axis=1)
-    partly = np.flatnonzero(~full & ~blank.all(axis=1))
-    if len(partly):
-        column = columns.names[int(np.argmax(blank[partly[0]]))]
-        where = f"{table.source}, {table.place(int(rows[partly[0]]))}, column '{column}'"
-        raise InputError(where, "a blank cell", f"a number, as in the other columns of {name}")
-    channel = Channel(name, time[rows][full], values[full] * np.array(columns.factor), rows[full])
-    return channel if len(channel) else None
+def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, list[FaultyRows]]:
+    """Return a channel without the rows where it is blank, and its faulty rows.
+
+    A row of NaN throughout had no reading if another channel has one there; if none has, nothing
+    was recorded, which is a fault.
+    """
+    table, rows = source.table, source.rows
+    numbers = _numbers(table, columns)
+    values = np.stack([each.values for each in numbers], axis=1)[rows]
+    garbage = _marked(table, [each.garbage for each in numbers])[rows]
+    nan = _marked(table, [each.nan for each in numbers])[rows]
+    full = ~np.isnan(values).any(axis=1)
+    none = np.isnan(values).all(axis=1) & ~garbage  # no reading here
+    if (none & nan).any():
+        none &= ~nan | source.alive()[rows]
+    bad = (garbage | nan) & ~none
+    partly = ~full & ~none & ~bad
+    found = [
+        _faulty(source, name, columns, kind, mask)
+        for kind, mask in ((RowFault.NOT_A_NUMBER, bad), (RowFault.PARTLY_BLANK, partly))
+        if mask.any()
+    ]
+    factor = np.array(columns.factor)
+    return Channel(name, source.time[rows][full], values[full] * factor, rows[full]), found
 
 
-def in_body_axes(
-    channel: Channel | None, columns: Columns | None, body: tuple[str, str, str]
-) -> Channel | None:
+def in_body_axes(channel: Channel, columns: Columns, body: tuple[str, str, str]) -> Channel:
     """Return a vector channel in our body axes."""
-    if channel is None or columns is None:
-        return channel
     axes = columns.axes or body
     if axes == ("x", "y", "z"):
         return channel  # verbatim: a product with one would be the same, but for -0.0
     return Channel(channel.name, channel.t, channel.values @ axes_matrix(axes).T, channel.rows)
 
 
-def _numbers(table: Table, columns: Columns) -> Floats:
-    """Return the columns side by side, in the unit of the table."""
+def _marked(table: Table, rows: list[Ints]) -> Bools:
+    mask = np.zeros(len(table), dtype=bool)
+    mask[np.concatenate(rows)] = True
+    return mask
+
+
+def _faulty(source: Rows, name: str, columns: Columns, kind: RowFault, mask: Bools) -> FaultyRows:
+    """Return the rows of a fault, and the first of their cells that holds no number."""
+    table, faulty = source.table, source.rows[mask]
+    row = int(faulty[0])
+    empty = [each for each in columns.names if np.isnan(table.numbers(each).values[row])]
+    spoken = [each for each in empty if table.found(each, row) != BLANK]
+    column = (spoken or empty)[0]
+    wanted = (
+        f"a finite number, or {table.blank} for no reading"
+        if kind == RowFault.NOT_A_NUMBER
+        else f"a number, as in the other columns of {name}"
+    )
+    where = f"{table.source}, {table.place(row)}, column '{column}'"
+    return FaultyRows(kind, faulty, where, table.found(column, row), wanted)
+
+
+def _full(numbers: list[Numbers]) -> Bools:
+    """Say of each row whether all of some columns hold a number."""
+    return np.logical_and.reduce([np.isfinite(each.values) for each in numbers])
+
+
+def _numbers(table: Table, columns: Columns) -> list[Numbers]:
+    """Return the columns, in the unit of the table."""
     for name in columns.names:
         if name not in table.names:
             known = [known for known in table.names if known]
             raise InputError(f"{table.source}, header", f"no column '{name}'", nearest(name, known))
-    return np.stack([table.numbers(name) for name in columns.names], axis=1)
+    return [table.numbers(name) for name in columns.names]

@@ -24,7 +24,7 @@ def read_recording(path: str | Path, options: ReadOptions = AS_IT_IS) -> Recordi
     """
     content = content_of(Path(path))
     table, known = format_of(Path(path), content).read(Path(path), content, options)
-    recording = recording_of(table, _columns(table, known, options))
+    recording = recording_of(table, _columns(table, known, options), options.bad_rows)
     return replace(recording, sha256=hashlib.sha256(content).hexdigest())
 
 

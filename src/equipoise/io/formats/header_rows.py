@@ -1,0 +1,110 @@
+"""The header of a table among its first rows: names, a row of units, or none at all."""
+
+import re
+from dataclasses import dataclass
+
+from equipoise.io.columns.column_map import Layout
+from equipoise.io.formats.text_rows import HEAD_LINES
+from equipoise.io.toml.units import TO_SI
+from equipoise.model.errors import InputError
+
+SHARE = 0.5  # of a row's filled cells that must be numbers for it to hold data (chosen)
+ABOVE = 3  # filled cells that a line above the header needs to belong to it (chosen)
+BARE = re.compile(r"^[\[(]?\s*(.*?)\s*[\])]?$")  # a unit without its brackets
+# Units as others write them, and what says that there is none.
+UNITS = frozenset({*TO_SI, "", "-", "1", "none", "°", "°/s", "deg/sec", "rad/sec", "sec", "µs"})
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """What the columns are called."""
+
+    names: tuple[str, ...]  # empty where the header has none
+    end: int  # the row in which the data begin
+    units: tuple[str, ...] = ()  # as a row below the names has them
+    notes: tuple[str, ...] = ()
+
+
+def header_of(rows: list[list[str]], lines: list[int], source: str, layout: Layout) -> Header:
+    """Return the header; without one columns are called 1, 2 and so on."""
+    skipped = layout.skip_rows
+    head = _header_row(rows) if skipped is None else sum(line <= skipped for line in lines)
+    if head >= len(rows):
+        raise InputError(source, f"only {len(rows)} rows", "a header and rows of numbers")
+    if head < 0:
+        count = max(map(len, rows[:HEAD_LINES]))
+        note = f"There is no header; the columns are called 1 to {count}."
+        return Header(tuple(str(k + 1) for k in range(count)), 0, (), (note,))
+    if head > 0 and skipped is None and _holds_units(rows[head], rows[head - 1]):
+        units = tuple(_bare(cell) for cell in rows[head])
+        note = f"Line {lines[head]} holds units; it was left aside."
+        return Header(_column_names(rows, head - 1, head + 1), head + 1, units, (note,))
+    return Header(_column_names(rows, head, head + 1), head + 1)
+
+
+def filled(row: list[str]) -> int:
+    """Return how many cells of a row hold something."""
+    return sum(bool(cell.strip()) for cell in row)
+
+
+def _header_row(rows: list[list[str]]) -> int:
+    """Return the row before the first that holds data, as the next does; the first if none does.
+
+    Motive's line of identities is all numbers as well, but more header follows it. -1 is returned
+    where the first row is data already.
+    """
+    data = [_holds_data(row) for row in rows[:HEAD_LINES]]
+    pairs = zip(data, [*data[1:], True], strict=True)
+    return next((i for i, (this, after) in enumerate(pairs) if this and after), 1) - 1
+
+
+def _holds_units(row: list[str], above: list[str]) -> bool:
+    """Say whether a row below names holds their units."""
+    units = [_bare(cell) for cell in row]
+    names = [name.strip() for name in above if name.strip()]
+    if not any(units) or len(row) > len(above) or len(set(names)) < len(names):
+        return False
+    return all(unit in UNITS for unit in units) and not all(_bare(n) in UNITS for n in names)
+
+
+def _bare(cell: str) -> str:
+    found = BARE.match(cell.strip())
+    return found[1] if found else cell.strip()
+
+
+def _column_names(rows: list[list[str]], head: int, end: int) -> tuple[str, ...]:
+    """Return a name for each column; it is empty where the header has none."""
+    names = [name.strip() for name in rows[head]]
+    below = rows[end : end + HEAD_LINES]
+    while names and not names[-1] and not any(map(str.strip, _column(below, len(names) - 1))):
+        names.pop()  # a separator too many at the end of the header
+    named = [name for name in names if name]
+    if len(set(named)) == len(named):
+        return tuple(names)
+    # Motive leaves the first cell of these lines blank; its line of settings begins with text.
+    above = [row for row in rows[:head] if not row[0].strip() and filled(row) >= ABOVE]
+    return tuple(_full_name(name, i, above) for i, name in enumerate(names))
+
+
+def _column(rows: list[list[str]], column: int) -> list[str]:
+    """Return the cells of a column; rows that end before it have none."""
+    return [row[column] for row in rows if column < len(row)]
+
+
+def _full_name(name: str, column: int, above: list[list[str]]) -> str:
+    """Return a name with what stands above it, as kind/name/rotation/X."""
+    parents = map(str.strip, _column(above, column))
+    return "/".join([*filter(None, parents), name])
+
+
+def _holds_data(row: list[str]) -> bool:
+    cells = [cell for cell in row if cell.strip()]
+    return len(cells) > 1 and sum(map(_is_number, cells)) > SHARE * len(cells)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell.replace(",", "."))
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,139 @@
+"""The clock of a table set right: counters that wrap, stamps that are wrong.
+
+A counter of few bits, or a clock of the day, begins anew: where a step back is one of few known
+lengths short of a usual step forward, what follows goes on by that length. Of the rest the longest
+run of times that do not go back is kept, so that a wrong stamp condemns itself and not those after
+it. Few rows at either end that a gap beyond any measure cuts off are another clock's.
+"""
+
+from bisect import bisect_right
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.row_faults import FaultyRows, RowFault
+from equipoise.io.columns.table import Table, no_rows
+from equipoise.io.recording.channels import read_time
+from equipoise.model.arrays import Ints, Series1
+from equipoise.model.errors import InputError
+from equipoise.model.units import US
+
+Notes = tuple[str, ...]
+LATE = 20.0  # usual steps that a counter may have gone on by when it is seen again (chosen)
+BITS = (16, 32)  # of counters, in the column's unit
+PERIODS = (2**32 * US, 86_400.0, 43_200.0, 604_800.0)  # s: micros(), a day, its half, a week
+STRAY = 1000.0  # times all the rest, chosen: no bench falls silent for so long and goes on
+FEW = 0.1  # share of the rows that may be stray (chosen)
+WANTED = "times that grow from row to row"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Clock:
+    """The time of every row of a table, and which rows have one that can be used."""
+
+    time: Series1  # s, of every row; NaN where there is none
+    rows: Ints  # that can be used
+    faulty: tuple[FaultyRows, ...] = ()
+    notes: Notes = ()
+
+
+def clock_of(table: Table, columns: ColumnMap) -> Clock:
+    """Return the clock of a table; InputError if no row has a time."""
+    time = read_time(table, columns)
+    lost = np.concatenate([no_rows(), *(each.rows for each in table.faulty)])
+    timed = np.flatnonzero(~np.isnan(time))
+    untimed = _untimed(table, columns, np.setdiff1d(np.flatnonzero(np.isnan(time)), lost))
+    if not len(timed):
+        where = untimed[0].where if untimed else table.source
+        raise InputError(where, "no row with a time", "a time in every row")
+    time, notes = _unwrapped(table, columns, time, timed)
+    rows, back = _forward(table, time, timed)
+    rows, strays = (rows, ()) if columns.native else _without_strays(table, time, rows)
+    return Clock(time, rows, (*untimed, *back, *strays), notes)
+
+
+def _untimed(table: Table, columns: ColumnMap, rows: Ints) -> tuple[FaultyRows, ...]:
+    if not len(rows):
+        return ()
+    row, names = int(rows[0]), [name for part in columns.time for name in part.names]
+    empty = next(name for name in names if np.isnan(table.numbers(name).values[row]))
+    where = f"{table.source}, {table.place(row)}, column '{empty}'"
+    fault = FaultyRows(RowFault.NO_TIME, rows, where, table.found(empty, row), "a time")
+    return (fault,)
+
+
+def _unwrapped(
+    table: Table, columns: ColumnMap, time: Series1, timed: Ints
+) -> tuple[Series1, Notes]:
+    """Return a clock that goes on where its counter began anew."""
+    t = time[timed]
+    steps = np.diff(t)
+    ahead = steps[steps > 0]
+    back = np.flatnonzero(steps < 0)
+    if not len(back) or not len(ahead):
+        return time, ()
+    usual, unit = float(np.median(ahead)), float(np.min(columns.time[0].factor))
+    lengths = [2.0**bits * unit for bits in BITS] + list(PERIODS)
+    added = np.zeros(len(t))
+    notes: list[str] = []
+    for k in back.tolist():
+        fits = [length for length in lengths if 0 < steps[k] + length <= LATE * usual]
+        if fits:
+            added[k + 1 :] += fits[0]
+            place = table.place(int(timed[k + 1]))
+            notes.append(f"The clock began anew after {fits[0]:.9g} s, at {place}; taken as on.")
+    whole = time.copy()
+    whole[timed] += added
+    return whole, tuple(notes)
+
+
+def _forward(table: Table, time: Series1, timed: Ints) -> tuple[Ints, tuple[FaultyRows, ...]]:
+    """Return the longest run of rows whose time does not go back, and the others."""
+    t = time[timed]
+    if (np.diff(t) >= 0).all():
+        return timed, ()
+    kept = longest_rising(t)
+    rows, back = timed[kept], np.delete(timed, kept)
+    at = int(np.argmax(np.diff(t) < 0))
+    where = f"{table.source}, {table.place(int(timed[at + 1]))}"
+    found = f"time going backwards, from {t[at]:.9g} s to {t[at + 1]:.9g} s"
+    return rows, (FaultyRows(RowFault.BACKWARD, back, where, found, WANTED),)
+
+
+def longest_rising(t: Series1) -> Ints:
+    """Return the places of the longest subsequence that does not fall, by patience sorting."""
+    ends: list[float] = []  # of the best run of each length, and where that is
+    places: list[int] = []
+    before = np.full(len(t), -1, dtype=np.int64)
+    for k, value in enumerate(t.tolist()):
+        length = bisect_right(ends, value)
+        before[k] = places[length - 1] if length else -1
+        ends[length : length + 1] = [value]
+        places[length : length + 1] = [k]
+    kept: list[int] = [places[-1]]
+    while before[kept[-1]] >= 0:
+        kept.append(int(before[kept[-1]]))
+    return np.array(kept[::-1], dtype=np.int64)
+
+
+def _without_strays(table: Table, time: Series1, rows: Ints) -> tuple[Ints, tuple[FaultyRows, ...]]:
+    """Return the rows without few at either end that a gap beyond any measure cuts off.
+
+    A stamp of another clock, or a broken one. Where there are many, what is wrong is not known.
+    """
+    faulty: list[FaultyRows] = []
+    while True:
+        steps = np.diff(time[rows])
+        if not len(steps):
+            return rows, tuple(faulty)
+        last = int(np.argmax(steps))
+        before, after = last + 1, len(rows) - last - 1
+        few = min(before, after) < FEW * len(rows)
+        if not few or steps[last] <= STRAY * len(steps) * float(np.median(steps)):
+            return rows, tuple(faulty)
+        ahead, behind = rows[:before], rows[before:]
+        stray, rows = (behind, ahead) if after < before else (ahead, behind)
+        where = f"{table.source}, {table.place(int(stray[0]))}"
+        found = f"a gap of {steps[last]:.3g} s, more than {STRAY:g} times all the rest"
+        faulty.append(FaultyRows(RowFault.STRAY, stray, where, found, "times of one clock"))
