@@ -93,7 +93,7 @@ class Reading:
     topic
         Topic of a log to take, where it has several. May be repeated.
     body
-        Body of a motion-capture export to take, where it has several.
+        Body of a motion-capture export to take, where it has several; of natnet: its name or id.
     instance
         Which of a log's sensors of one kind to take, counted from 0.
     bad_rows

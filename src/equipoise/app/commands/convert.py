@@ -29,8 +29,6 @@ class Captured:
         below go before.
     form
         Of lines: csv or json.
-    body
-        Of natnet: the rigid body's streaming id, or its name.
     laboratory
         Frame of the attitude: ned, z_up or y_up. Left out: as is usual with the driver.
     rate_hz
@@ -40,7 +38,6 @@ class Captured:
     driver: Annotated[str | None, Parameter(name="--as")] = None
     testbed: str | None = None
     form: Annotated[str | None, Parameter(name="--format")] = None
-    body: str | None = None
     laboratory: str | None = None
     rate_hz: float | None = None
 
@@ -112,6 +109,6 @@ def _settings(captured: Captured, reading: Reading) -> "dict[str, Setting]":
         found["columns"] = tuple(reading.columns.replace(",", " ").split())
     if captured.form is not None:
         found["format"] = captured.form
-    if captured.body is not None:
-        found["body"] = float(captured.body) if captured.body.isdecimal() else captured.body
+    if reading.body is not None:
+        found["body"] = float(reading.body) if reading.body.isdecimal() else reading.body
     return found
