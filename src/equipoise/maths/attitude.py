@@ -5,7 +5,7 @@ Every function takes one quaternion or a series of them along the first axis.
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Matrix3, Quaternion, Series4, Vector3
+from equipoise.model.arrays import Floats, Quaternion, Series4, Vector3
 
 
 def normalise(q: Floats) -> Floats:
@@ -46,15 +46,19 @@ def to_matrix(q: Floats) -> Floats:
     return turn.transpose(*range(2, turn.ndim), 0, 1)
 
 
-def from_matrix(turn: Matrix3) -> Quaternion:
-    """Return the unit quaternion of a rotation matrix.
+def from_matrix(turn: Floats) -> Floats:
+    """Return the unit quaternion of a rotation matrix, nearest to one that is none exactly.
 
     It is the eigenvector, for the greatest eigenvalue, of Bar-Itzhack's symmetric 4 x 4 matrix.
     """
-    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    trace = np.trace(turn)
-    corner = turn + turn.T - trace * np.eye(3)
-    return np.linalg.eigh(np.block([[trace, skew], [skew[:, None], corner]]))[1][:, -1]
+    twice = turn - turn.swapaxes(-1, -2)
+    skew = np.stack([twice[..., 2, 1], twice[..., 0, 2], twice[..., 1, 0]], axis=-1)
+    trace = np.trace(turn, axis1=-2, axis2=-1)[..., None, None]
+    square = np.empty((*turn.shape[:-2], 4, 4))
+    square[..., :1, :1] = trace
+    square[..., 0, 1:] = square[..., 1:, 0] = skew
+    square[..., 1:, 1:] = turn + turn.swapaxes(-1, -2) - trace * np.eye(3)
+    return np.linalg.eigh(square)[1][..., -1]
 
 
 def exponential(vector: Floats) -> Floats:

@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 
 from equipoise.io.columns.read_options import ReadOptions
-from equipoise.io.recording.frame_check import check_frame
 from equipoise.io.recording.recording_file import check_names, read_recording, write_recording
 from equipoise.io.testbed.presets import read_preset
 from equipoise.io.testbed.testbed_file import parse_testbed
-from equipoise.maths.attitude import exponential
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
 
@@ -158,21 +156,3 @@ def test_broken_parquet_is_named(tmp_path) -> None:
     (tmp_path / "half.parquet").write_bytes(whole.read_bytes()[:100])
     with pytest.raises(InputError, match="broken Parquet"):
         read_recording(tmp_path / "half.parquet")
-
-
-def leaning(angle_deg: float) -> Recording:
-    """Return a recording of a platform that leans about x."""
-    turn = np.radians(angle_deg) * np.tile([1.0, 0.0, 0.0], (5, 1))
-    return Recording(attitude=Samples(np.arange(5.0), exponential(turn)), source="run.csv")
-
-
-def test_a_laboratory_with_y_up_is_found_out() -> None:
-    """A platform that seems to lie on its side: the sentence says what to do."""
-    with pytest.raises(InputError, match=r"tilted by 90 deg.*--dialect"):
-        check_frame(leaning(90), read_preset("sputnix"))
-
-
-@pytest.mark.parametrize("angle", [0, 30, 59])
-def test_a_leaning_platform_is_no_wrong_frame(angle) -> None:
-    """Tilts that a table can have pass."""
-    check_frame(leaning(angle), read_preset("sputnix"))

@@ -55,7 +55,8 @@ def read_recording(
     path
         CSV, Parquet, MCAP, MAT, or a log of another program.
     dialect
-        How to read a table: native, optitrack or ros. None: by its header.
+        How to read a table: native, optitrack, vicon, qualisys, phyphox, ros or euler. None: by
+        its header.
     columns
         Column map (TOML) for a table of any other kind.
     topics

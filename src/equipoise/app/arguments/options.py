@@ -87,7 +87,8 @@ class Reading:
     to_s
         Leave out what is after this time.
     dialect
-        How to read the table: native, optitrack or ros. Left out: by its header.
+        How to read the table: native, optitrack, vicon, qualisys, phyphox, ros or euler.
+        Left out: by its header.
     columns
         Column map (TOML) for a table of any other kind.
     topic

@@ -15,6 +15,7 @@ class Columns:
     factor: float | tuple[float, ...] = 1.0  # to SI, one for all or one for each
     # Our x, y, z in terms of the table's, such as ("x", "-z", "y"); None: as the whole table.
     axes: tuple[str, str, str] | None = None
+    offset: float | tuple[float, ...] = 0.0  # comes off before the factor, in the column's unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +42,8 @@ class Layout:
     separator: str | None = None
     decimal: str | None = None
     skip_rows: int | None = None  # lines before the header
+    header: bool = True  # False: none, and the columns are named 1, 2, ...
+    units_row: bool | None = None  # whether a line of units follows the header
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +53,8 @@ class ColumnMap:
     time: tuple[Columns, ...]  # their sum is the time: seconds and nanoseconds come in two columns
     quaternion: Columns | None = None  # w, x, y, z
     euler: Euler | None = None
+    matrix: Columns | None = None  # nine, row by row, body to laboratory
+    rotation_vector: Columns | None = None
     rate: Columns | None = None
     masses: tuple[NamedColumn, ...] = ()
     momentum: Columns | None = None

@@ -3,6 +3,8 @@
 separator = ";"                     # left out: detected
 decimal = ","
 skip_rows = 2                       # lines before the header
+no_header = true                    # the columns are then named "1", "2", ...
+units_row = true                    # a line of units follows the header
 lab_up = "y"                        # the laboratory axis that points up
 body = ["x", "-z", "y"]             # our body axes in terms of the table's
 mean_of_frames = true               # quaternions may be short
@@ -11,12 +13,18 @@ column = "t"
 unit = "ms"
 [attitude]
 columns = ["qx", "qy", "qz", "qw"]
-order = "xyzw"                      # or, for angles: unit = "deg", sequence = "ZYX"
+order = "xyzw"
 turns = "body to laboratory"
+# or three angles:                  unit = "deg", sequence = "ZYX", signs = [1, -1, 1],
+#                                   compass = true where yaw is clockwise from north
+# or a rotation vector:             unit = "rad", kind = "rotation vector"
+# or nine, a matrix row by row:     no further key
 [rate]
 columns = ["gx", "gy", "gz"]
 unit = "deg/s"
 axes = ["x", "y", "-z"]             # left out: as body
+factor = 0.0175                     # what a count is, in the unit; left out: 1
+offset = [3, -8, 1]                 # counts of no turn, or one for all; left out: 0
 [[mass]]
 name = "x1"
 column = "stage 1"
@@ -32,20 +40,20 @@ unit = "nT"
 """
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
+from equipoise.io.columns.attitude_table import AttitudeTable, attitude_columns
 from equipoise.io.columns.axis_permutation import axes_matrix
 from equipoise.io.columns.column_map import (
     ColumnMap,
     Columns,
-    Euler,
     Layout,
     NamedColumn,
 )
-from equipoise.io.toml.key_types import Table
+from equipoise.io.toml.key_types import Positive, Table, Triple
 from equipoise.io.toml.read_toml import read_toml
 from equipoise.io.toml.units import factor
 from equipoise.model.devices import Reported
@@ -59,23 +67,16 @@ Three = Annotated[list[str], Field(min_length=3, max_length=3)]
 QUANTITY = {"wheel": "rate", "gimbal": "angle", "dipole": "dipole", "jet": "torque"}
 
 
+def _thrice(value: Any) -> Any:
+    """Return a number as three that are equal, anything else as it is."""
+    return [value] * 3 if isinstance(value, (int, float)) else value
+
+
 class TimeTable(Table):
     """The clock."""
 
     column: str
     unit: str
-
-
-class AttitudeTable(Table):
-    """A quaternion in four columns, or angles in three."""
-
-    columns: Annotated[list[str], Field(min_length=3, max_length=4)]
-    order: Literal["wxyz", "xyzw"] | None = None
-    unit: str | None = None
-    sequence: Annotated[str, Field(pattern=r"^([XYZ]{3}|[xyz]{3})$")] | None = Field(
-        None, description="three letters of X, Y, Z, or of x, y, z about fixed axes"
-    )
-    turns: Literal["body to laboratory", "laboratory to body"] = "body to laboratory"
 
 
 class TriadTable(Table):
@@ -84,6 +85,8 @@ class TriadTable(Table):
     columns: Three
     unit: str
     axes: Axes | None = None
+    factor: Positive = 1.0
+    offset: Annotated[Triple, BeforeValidator(_thrice)] = Field([0.0, 0.0, 0.0])
 
 
 class MassTable(Table):
@@ -122,6 +125,8 @@ class MapFile(Table):
     separator: Literal[",", ";", "tab"] | None = None
     decimal: Literal[".", ","] | None = None
     skip_rows: Annotated[int, Field(ge=0)] | None = None
+    no_header: bool = False
+    units_row: bool | None = None
     lab_up: Axis = "z"
     body: Axes = Field(["x", "y", "z"])
     mean_of_frames: bool = False
@@ -144,12 +149,10 @@ def read_column_map(path: str | Path) -> ColumnMap:
     if table.attitude is None and table.rate is None:
         raise InputError(source, "neither [attitude] nor [rate]", "at least one of them")
     separator = "\t" if table.separator == "tab" else table.separator
-    quaternion, euler = _attitude(table.attitude, f"{source}: attitude")
     body = _axes(table.body, f"{source}: body") or ("x", "y", "z")
     return ColumnMap(
         time=(Columns((table.time.column,), factor(table.time.unit, "time", f"{source}: time")),),
-        quaternion=quaternion,
-        euler=euler,
+        **attitude_columns(table.attitude, f"{source}: attitude"),
         rate=_triad(table.rate, "rate", f"{source}: rate"),
         masses=tuple(
             NamedColumn(m.name, m.column, factor(m.unit, "length", f"{source}: mass[{i}]"))
@@ -165,30 +168,18 @@ def read_column_map(path: str | Path) -> ColumnMap:
         body=body,
         inverse=table.attitude is not None and table.attitude.turns == "laboratory to body",
         mean_of_frames=table.mean_of_frames,
-        layout=Layout(separator, table.decimal, table.skip_rows),
+        layout=Layout(
+            separator, table.decimal, table.skip_rows, not table.no_header, table.units_row
+        ),
     )
-
-
-def _attitude(table: AttitudeTable | None, where: str) -> tuple[Columns | None, Euler | None]:
-    if table is None:
-        return None, None
-    if len(table.columns) == 4:
-        if table.order is None:
-            raise InputError(where, "four columns but no 'order'", "order = 'wxyz' or 'xyzw'")
-        place = [table.order.index(letter) for letter in "wxyz"]
-        return Columns(tuple(table.columns[i] for i in place)), None
-    if table.unit is None or table.sequence is None:
-        found = "three columns but no 'unit' or no 'sequence'"
-        raise InputError(where, found, "unit = 'deg' or 'rad', sequence such as 'ZYX'")
-    columns = Columns(tuple(table.columns), factor(table.unit, "angle", where))
-    return None, Euler(columns, table.sequence)
 
 
 def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
     if table is None:
         return None
     axes = None if table.axes is None else _axes(table.axes, f"{where}.axes")
-    return Columns(tuple(table.columns), factor(table.unit, kind, where), axes)
+    unit = factor(table.unit, kind, where) * table.factor
+    return Columns(tuple(table.columns), unit, axes, tuple(table.offset))
 
 
 def _device(table: DeviceTable, where: str) -> NamedColumn:

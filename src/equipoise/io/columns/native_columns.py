@@ -67,12 +67,12 @@ def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
         masses=tuple(NamedColumn(match[1], match[0], MM) for match in masses),
         devices=tuple(devices),
         native=True,
-        notes=_left_aside(names, known),
+        notes=left_aside(names, known),
         **groups,
     )
 
 
-def _left_aside(names: tuple[str, ...], known: list[str]) -> tuple[str, ...]:
+def left_aside(names: tuple[str, ...], known: list[str]) -> tuple[str, ...]:
     """Say which columns mean nothing here, such as a motor's command that nothing accounts for."""
     unknown = [name for name in names if name and name not in known]
     if not unknown:

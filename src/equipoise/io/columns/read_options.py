@@ -11,7 +11,7 @@ BAD_ROWS = 0.05  # share of a file's rows that may be left out as faulty (chosen
 class ReadOptions:
     """What is stated of a file; what is left out is detected, or refused where it is open."""
 
-    dialect: str | None = None  # native, optitrack, ros
+    dialect: str | None = None  # one of ``dialects.DIALECTS``
     columns: ColumnMap | None = None  # goes before a dialect
     topics: tuple[str, ...] = ()  # of a log: those to take
     body: str | None = None  # of a motion-capture export

@@ -29,6 +29,7 @@ class RowFault(StrEnum):
     NOT_A_NUMBER = "with a value that is no number"
     PARTLY_BLANK = "with a blank cell beside numbers"
     NOT_UNIT = "with a quaternion that has not unit length"
+    NOT_ROTATION = "with a matrix that is no rotation"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -72,10 +72,14 @@ def euler_angles(channel: Channel, columns: ColumnMap) -> tuple[Channel, Notes]:
     assert columns.euler is not None  # the caller has read these columns
     wraps = int((np.abs(np.diff(channel.values, axis=0)) > np.pi).sum())
     q = _from_euler(channel.values, columns.euler.sequence)
-    q, _ = _continuous(_in_our_axes(q, columns))  # signs have no meaning in a table of angles
     reported = f"attitude: {wraps} wraps of an angle by a whole turn; taken as turning on."
-    notes = (reported,) if wraps else ()
-    return Channel(channel.name, channel.t, q, channel.rows), notes
+    return rotations(channel, q, columns), (reported,) if wraps else ()
+
+
+def rotations(channel: Channel, q: Series4, columns: ColumnMap) -> Channel:
+    """Return rotations that were no quaternions in the table as quaternions in our axes."""
+    mended, _ = _continuous(_in_our_axes(q, columns))  # their signs come of the conversion
+    return Channel(channel.name, channel.t, mended, channel.rows)
 
 
 def _from_euler(angles: Floats, sequence: str) -> Series4:

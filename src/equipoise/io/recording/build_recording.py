@@ -11,13 +11,13 @@ from equipoise.io.columns.read_options import BAD_ROWS
 from equipoise.io.columns.row_faults import FaultyRows, without_faulty
 from equipoise.io.columns.table import Table
 from equipoise.io.recording.attitude_columns import (
-    euler_angles,
     lengths,
     of_unit_length,
     quaternions,
 )
 from equipoise.io.recording.channels import Channel, Rows, columns_of, in_body_axes, read_channel
 from equipoise.io.recording.clock import Clock, clock_of
+from equipoise.io.recording.rotation_columns import as_quaternions, of_rotations
 from equipoise.io.recording.time_stamps import gap_notes, without_duplicates
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
@@ -49,6 +49,9 @@ def channel_of(source: Rows, name: str) -> Found:
     if kept is not None and columns is source.columns.quaternion:
         kept, short = of_unit_length(kept, source.table, source.columns)
         faulty += short
+    if kept is not None and columns is source.columns.matrix:
+        kept, wrong, lost = of_rotations(kept, source.table)
+        faulty, dead = [*faulty, *wrong], (*dead, *lost)
     if kept is None or not len(kept):
         return Found(None, tuple(faulty), dead)
     kept, twice = without_duplicates(kept, source.table)
@@ -96,18 +99,17 @@ def _rows(table: Table, columns: ColumnMap, clock: Clock) -> tuple[Rows, Notes]:
 
 
 def _attitude(source: Rows) -> tuple[Found, Channel | None]:
-    """Return the attitude, whether it came as quaternions or as angles, and the lengths found."""
+    """Return the attitude, as whatever rotation it came, and the lengths found."""
     columns = source.columns
     found = channel_of(source, "attitude")
     raw = found.channel
     if raw is None:
         return found, None
-    angles = columns.euler is not None
-    mended, reported = (
-        euler_angles(raw, columns) if angles else quaternions(raw, source.table, columns)
-    )
+    is_quaternion = columns_of(columns, "attitude") is columns.quaternion
+    mend = quaternions if is_quaternion else as_quaternions
+    mended, reported = mend(raw, source.table, columns)
     whole = replace(found, channel=mended, notes=(*found.notes, *reported))
-    return whole, None if angles else lengths(raw)
+    return whole, lengths(raw) if is_quaternion else None
 
 
 def _check_enough(table: Table, *sensors: Channel | None) -> None:

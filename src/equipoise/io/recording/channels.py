@@ -56,7 +56,8 @@ class Rows:
 def columns_of(columns: ColumnMap, name: str) -> Columns | None:
     """Return the columns of a channel by its name."""
     if name == "attitude":
-        return columns.quaternion if columns.euler is None else columns.euler.columns
+        angles = None if columns.euler is None else columns.euler.columns
+        return angles or columns.matrix or columns.rotation_vector or columns.quaternion
     found: Any = getattr(columns, name)
     return _together(found) if name in ("masses", "devices") else found
 
@@ -104,8 +105,8 @@ def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, li
         for kind, mask in ((RowFault.NOT_A_NUMBER, bad), (RowFault.PARTLY_BLANK, partly))
         if mask.any()
     ]
-    factor = np.array(columns.factor)
-    return Channel(name, source.time[rows][full], values[full] * factor, rows[full]), found
+    si = (values[full] - np.array(columns.offset)) * np.array(columns.factor)
+    return Channel(name, source.time[rows][full], si, rows[full]), found
 
 
 def in_body_axes(channel: Channel, columns: Columns, body: tuple[str, str, str]) -> Channel:

@@ -18,9 +18,11 @@ from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
 from equipoise.io.formats.parquet_table import MAGIC as PARQUET
 from equipoise.io.formats.parquet_table import parquet_bytes, read_parquet
+from equipoise.io.formats.qualisys_header import with_qualisys_header
 from equipoise.io.formats.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
 from equipoise.io.formats.ulog_file import MAGIC as ULOG
 from equipoise.io.formats.ulog_file import read_ulog
+from equipoise.io.formats.vicon_header import with_vicon_header
 from equipoise.io.mcap.mcap_recording import read_mcap, write_mcap
 from equipoise.io.mcap.mcap_salvage import MAGIC as MCAP
 from equipoise.model.arrays import Series1
@@ -72,7 +74,10 @@ def format_to_write(path: Path) -> Write:
 
 
 def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
-    return cut(text_of(content, path, WANTED), str(path), options.layout), None
+    text, source, layout = text_of(content, path, WANTED), str(path), options.layout
+    if layout.skip_rows is None and layout.header:  # else a person has said where rows begin
+        text = with_vicon_header(with_qualisys_header(text, source), source)
+    return cut(text, source, layout), None
 
 
 def _table(read: Callable[[bytes, str], Table]) -> Read:
@@ -97,7 +102,7 @@ def _write_mcap(recording: Recording, path: Path) -> None:
 
 BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), lambda path, c, _: read_bag(path, c), None)
 FORMATS = (
-    Format("csv", (".csv", ".txt"), (), _read_text, _columns(lambda c, _: csv_text(c))),
+    Format("csv", (".csv", ".txt", ".tsv"), (), _read_text, _columns(lambda c, _: csv_text(c))),
     Format("parquet", (".parquet",), (PARQUET,), _table(read_parquet), _columns(parquet_bytes)),
     Format("mcap", (".mcap",), (MCAP,), _log(read_mcap), _write_mcap),
     Format(

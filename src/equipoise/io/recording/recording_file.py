@@ -51,7 +51,9 @@ def check_names(recording: Recording, testbed: Testbed) -> None:
 
 def _columns(table: Table, known: ColumnMap | None, options: ReadOptions) -> ColumnMap:
     """Return what a table's columns mean: as given, as its format states, or by the header."""
-    dialect = options.dialect
+    dialect, body = options.dialect, options.body
+    if options.columns is not None and body is not None:
+        raise InputError("--body and --columns", "both", "the columns of the body, or its name")
     if options.columns is not None:
         return options.columns
     if known is not None and dialect is not None:
@@ -60,8 +62,8 @@ def _columns(table: Table, known: ColumnMap | None, options: ReadOptions) -> Col
     if known is not None:
         return known
     if dialect is None:
-        return detect(table.names, table.source)
-    return dialect_map(dialect, table.names, table.source)
+        return detect(table.names, table.source, body)
+    return dialect_map(dialect, table.names, table.source, body)
 
 
 def _check_finite(recording: Recording, path: str) -> None:
