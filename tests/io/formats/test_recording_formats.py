@@ -15,6 +15,7 @@ from equipoise.io.recording.format_registry import FORMATS
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS
+from tests.support.excel_files import RATE_SHEET, workbook
 from tests.support.sample_logs import (
     IMU,
     ODOMETRY,
@@ -207,7 +208,7 @@ def samples(tmp_path_factory) -> dict[str, bytes]:
     made = {kind.name: (folder / f"{kind.name}{kind.suffixes[0]}") for kind in WRITTEN}
     made["bag"] = bag_1(folder / "one.bag", {"/imu": IMU})
     found = {name: path.read_bytes() for name, path in made.items()}
-    return found | {"ulog": ulog("sensor_combined")}
+    return found | {"ulog": ulog("sensor_combined"), "xlsx": workbook({"run": RATE_SHEET})}
 
 
 @pytest.mark.parametrize("kind", FORMATS, ids=lambda kind: kind.name)
