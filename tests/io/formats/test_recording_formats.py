@@ -181,12 +181,6 @@ def test_invalid_numbers_are_reported_without_runtime_warnings(tmp_path):
         read_recording(tmp_path / "long.mat")
 
 
-def test_a_mat_file_of_version_7_3_is_refused_with_advice_to_save_as_v7(tmp_path):
-    (tmp_path / "run.mat").write_bytes(b"MATLAB 7.3 MAT-file, Platform: GLNXA64" + bytes(600))
-    with pytest.raises(InputError, match=r"version 7\.3.*-v7"):
-        read_recording(tmp_path / "run.mat")
-
-
 def test_a_mat_file_with_rows_texts_and_numbers_beside_is_read(tmp_path):
     """As MATLAB saves a workspace."""
     t = np.arange(5.0)
