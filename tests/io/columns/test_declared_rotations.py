@@ -113,7 +113,7 @@ def test_a_matrix_that_is_no_rotation_is_refused(tmp_path, values, found, wanted
     with pytest.raises(InputError) as caught:
         read(tmp_path, NINE, values, declared(tmp_path, NINE, ""))
     text = str(caught.value)
-    assert all(word in text for word in ("line 2", found, "8 such rows", wanted))
+    assert all(word in text for word in ("line 2", found, "8 of 8 rows", wanted))
 
 
 BAD = {

@@ -15,6 +15,7 @@ from equipoise.io.recording.format_registry import FORMATS
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS
+from tests.support.excel_files import RATE_SHEET, workbook
 from tests.support.sample_logs import (
     IMU,
     ODOMETRY,
@@ -180,12 +181,6 @@ def test_invalid_numbers_are_reported_without_runtime_warnings(tmp_path):
         read_recording(tmp_path / "long.mat")
 
 
-def test_a_mat_file_of_version_7_3_is_refused_with_advice_to_save_as_v7(tmp_path):
-    (tmp_path / "run.mat").write_bytes(b"MATLAB 7.3 MAT-file, Platform: GLNXA64" + bytes(600))
-    with pytest.raises(InputError, match=r"version 7\.3.*-v7"):
-        read_recording(tmp_path / "run.mat")
-
-
 def test_a_mat_file_with_rows_texts_and_numbers_beside_is_read(tmp_path):
     """As MATLAB saves a workspace."""
     t = np.arange(5.0)
@@ -207,7 +202,7 @@ def samples(tmp_path_factory) -> dict[str, bytes]:
     made = {kind.name: (folder / f"{kind.name}{kind.suffixes[0]}") for kind in WRITTEN}
     made["bag"] = bag_1(folder / "one.bag", {"/imu": IMU})
     found = {name: path.read_bytes() for name, path in made.items()}
-    return found | {"ulog": ulog("sensor_combined")}
+    return found | {"ulog": ulog("sensor_combined"), "xlsx": workbook({"run": RATE_SHEET})}
 
 
 @pytest.mark.parametrize("kind", FORMATS, ids=lambda kind: kind.name)

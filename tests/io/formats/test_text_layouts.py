@@ -65,6 +65,32 @@ def test_a_table_without_a_header_has_columns_by_number() -> None:
     np.testing.assert_array_equal(table.numbers("1").values, [row[0] for row in ROWS])
 
 
+STATED = {
+    "names on line 3": (["a note", "another,1,2", HEADER], Layout(skip_rows=2)),
+    "then units": (["a note", HEADER, "a,b,c"], Layout(skip_rows=1, units_row=True)),
+        ["a note", HEADER, "a,b,c"],
+        Layout(skip_rows=1, units_row=True),
+    ),
+    "units of no known kind": ([HEADER, "a,b,c"], Layout(units_row=True)),
+}
+
+
+@pytest.mark.parametrize(("header", "layout"), STATED.values(), ids=STATED.keys())
+def test_a_layout_that_is_stated_goes_before_what_is_detected(header, layout) -> None:
+    """Names and rows are where the person says."""
+    table = cut(text(header, PLAIN), "r.csv", layout)
+    assert table.names == tuple(NAMES)
+    assert len(table) == len(ROWS)
+
+
+@pytest.mark.parametrize("skip_rows", [None, 1])
+def test_a_table_that_has_no_header_by_what_is_stated(skip_rows) -> None:
+    """A line of text before the numbers is none."""
+    table = cut(text(["made,on,Monday"], PLAIN), "r.csv", Layout(skip_rows=skip_rows, header=False))
+    assert table.names == ("1", "2", "3")
+    assert len(table) == len(ROWS)
+
+
 def test_decimal_commas_that_cannot_be_joined_name_the_remedy() -> None:
     """Whole numbers have no second part, so that rows have any number of cells."""
     rows = ["0,1,0,250", "25,0,999,0,750", "50,0,998,1,75"]

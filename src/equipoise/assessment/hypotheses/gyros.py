@@ -8,7 +8,7 @@ wrong direction or order it is large where the platform turned far about the ver
 """
 
 from dataclasses import dataclass
-from itertools import combinations, permutations, product
+from itertools import combinations, permutations
 
 import numpy as np
 
@@ -22,7 +22,7 @@ SMALL = np.radians(15.0)  # turn up to which the integral of rates is a turn (ch
 LEAST = 0.02  # share of a column's variation that must be the motion's for it to be tried (chosen)
 FEWEST = 20  # spans (chosen)
 TRIED = 8  # columns that are tried as gyros, chosen: two inertial units and a magnetometer
-SIGNS = tuple(product((1, -1), repeat=3))
+SIGNS = [(x, y, z) for x in (1, -1) for y in (1, -1) for z in (1, -1)]
 # What one count is, rad/s: the units in use, then data sheets of common gyros, deg/s a count.
 NAMED = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": 1e-3, "rpm": 2 * np.pi / 60}
 SHEETS = (1 / 131, 1 / 65.5, 1 / 32.8, 1 / 16.4, 8.75e-3, 17.5e-3, 35e-3, 70e-3, 1 / 14.375,

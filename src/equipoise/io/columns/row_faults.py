@@ -62,9 +62,9 @@ def without_faulty(
 def _refused(source: str, worst: FaultyRows, bad: int, count: int, share: float) -> InputError:
     """Return the error for too many faulty rows, at the first with the most frequent fault."""
     where = worst.where or source
+    found = worst.found if bad == 1 else f"{worst.found} ({bad} of {count} rows are faulty)"
     if bad == 1 or bad > OFFERED * count:
-        return InputError(where, worst.found, worst.wanted)
-    found = f"{worst.found} ({bad} of {count} rows are faulty)"
+        return InputError(where, found, worst.wanted)
     offered = f"--bad-rows {np.ceil(100 * bad / count) / 100:g} leaves them out"
     return InputError(where, found, f"{worst.wanted}; at most {share:.3g} of the rows; {offered}")
 

@@ -3,10 +3,12 @@
 from pathlib import Path
 from typing import BinaryIO
 
+from equipoise.io.files.file_marks import binary_text
 from equipoise.model.errors import InputError
 
 TEXT_CONTROL = frozenset(b"\t\n\r\f")
 MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+PDF = b"%PDF-"  # begins as a text does
 SAMPLE = 4096  # bytes examined to distinguish text from binary; chosen: several lines of any table
 
 
@@ -36,11 +38,16 @@ def read_bytes(path: str | Path, wanted: str) -> bytes:
 
 
 def text_of(content: bytes, path: str | Path, wanted: str) -> str:
-    """Return the bytes as text: UTF-8 or UTF-16 by mark, else UTF-8, else Latin-1."""
-    encoding = next((name for mark, name in MARKS if content.startswith(mark)), "utf-8")
+    """Return the bytes as text: UTF-8 or UTF-16 by mark or by its zeros, else UTF-8, else Latin-1.
+
+    InputError says what the bytes are if they are no text.
+    """
+    encoding = _encoding(content)
+    if encoding == "utf-8" and _is_binary(content):
+        raise InputError(str(path), binary_text(content), wanted)
+    if encoding.startswith("utf-16"):
+        return content.decode(encoding, errors="replace")  # a cut file ends within a letter
     try:
-        if encoding == "utf-8" and _is_binary(content):
-            raise InputError(str(path), "binary content", wanted)
         return content.decode(encoding)
     except UnicodeDecodeError:
         # Old instruments write a degree sign or a micro sign in an 8-bit code page; the columns
@@ -48,6 +55,21 @@ def text_of(content: bytes, path: str | Path, wanted: str) -> str:
         return content.decode("latin-1")
 
 
+def _encoding(content: bytes) -> str:
+    """Return the encoding that a text's mark states, else that of its zeros, else UTF-8."""
+    marked = next((name for mark, name in MARKS if content.startswith(mark)), None)
+    if marked is not None:
+        return marked
+    sample = content[:SAMPLE]
+    halves = (("utf-16-le", sample[0::2], sample[1::2]), ("utf-16-be", sample[1::2], sample[0::2]))
+    for name, letters, zeros in halves:
+        if zeros and not any(zeros) and not _is_binary(letters):
+            return name
+    return "utf-8"
+
+
 def _is_binary(content: bytes) -> bool:
-    """Say whether control characters occur that no text has."""
+    """Say whether bytes are no text: control characters occur that none has, or a PDF's mark."""
+    if content.startswith(PDF):
+        return True
     return any(byte < 32 and byte not in TEXT_CONTROL for byte in content[:SAMPLE])

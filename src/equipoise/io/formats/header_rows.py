@@ -28,18 +28,30 @@ class Header:
 def header_of(rows: list[list[str]], lines: list[int], source: str, layout: Layout) -> Header:
     """Return the header; without one columns are called 1, 2 and so on."""
     skipped = layout.skip_rows
-    head = _header_row(rows) if skipped is None else sum(line <= skipped for line in lines)
-    if head >= len(rows):
+    before = None if skipped is None else sum(line <= skipped for line in lines)
+    last = _row_before_data(rows) if before is None else before
+    if last >= len(rows):
         raise InputError(source, f"only {len(rows)} rows", "a header and rows of numbers")
-    if head < 0:
-        count = max(map(len, rows[:HEAD_LINES]))
-        note = f"There is no header; the columns are called 1 to {count}."
-        return Header(tuple(str(k + 1) for k in range(count)), 0, (), (note,))
-    if head > 0 and skipped is None and _holds_units(rows[head], rows[head - 1]):
-        units = tuple(_bare(cell) for cell in rows[head])
-        note = f"Line {lines[head]} holds units; it was left aside."
-        return Header(_column_names(rows, head - 1, head + 1), head + 1, units, (note,))
-    return Header(_column_names(rows, head, head + 1), head + 1)
+    if last < 0 or not layout.header:
+        return _no_header(rows, last + 1 if before is None else before)
+    at = last - 1 if before is None else last  # where the names are, if units follow
+    if at >= 0 and at + 1 < len(rows) and _units_follow(rows[at], rows[at + 1], layout):
+        units = tuple(_bare(cell) for cell in rows[at + 1])
+        note = f"Line {lines[at + 1]} holds units; it was left aside."
+        return Header(_column_names(rows, at, at + 2), at + 2, units, (note,))
+    return Header(_column_names(rows, last, last + 1), last + 1)
+
+
+def _no_header(rows: list[list[str]], begin: int) -> Header:
+    count = max(map(len, rows[begin : begin + HEAD_LINES]), default=0)
+    note = f"There is no header; the columns are called 1 to {count}."
+    return Header(tuple(str(k + 1) for k in range(count)), begin, (), (note,))
+
+
+def _units_follow(names: list[str], below: list[str], layout: Layout) -> bool:
+    if layout.units_row is not None:
+        return layout.units_row
+    return _holds_units(below, names)
 
 
 def filled(row: list[str]) -> int:
@@ -47,7 +59,7 @@ def filled(row: list[str]) -> int:
     return sum(bool(cell.strip()) for cell in row)
 
 
-def _header_row(rows: list[list[str]]) -> int:
+def _row_before_data(rows: list[list[str]]) -> int:
     """Return the row before the first that holds data, as the next does; the first if none does.
 
     Motive's line of identities is all numbers as well, but more header follows it. -1 is returned

@@ -1,4 +1,4 @@
-"""Libraries that read and write other programs' logs: an extra, imported when one is needed."""
+"""Libraries that read and write other programs' files: extras, imported when one is needed."""
 
 from importlib import import_module
 from typing import Any
@@ -8,8 +8,17 @@ from equipoise.model.errors import InputError
 
 def log_library(name: str, where: str) -> Any:
     """Return a library of the extra ``logs``; InputError names ``where`` it was needed."""
+    return extra_library(name, where, "a log", "logs")
+
+
+def extra_library(name: str, where: str, what: str, extra: str, instead: str = "") -> Any:
+    """Return a library of an extra that reads ``what``; InputError names the extra.
+
+    ``instead`` says what a person can do without it, ' or ...'.
+    """
     try:
         return import_module(name)
     except ImportError as error:
-        found = f"a log, but {name.split('.')[0]} is not installed"
-        raise InputError(where, found, "the logs extra: `pip install equipoise[logs]`") from error
+        found = f"{what}, but {name.split('.')[0]} is not installed"
+        wanted = f"the {extra} extra: `pip install equipoise[{extra}]`{instead}"
+        raise InputError(where, found, wanted) from error

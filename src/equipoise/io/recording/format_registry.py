@@ -1,6 +1,7 @@
 """Every format of a recording, in one table: how it is known, read and written.
 
-A file is known by its first bytes; by its suffix only where those say nothing, as in a text.
+A file is known by its first bytes; by its suffix only where those say nothing, as in a text. One
+that is compressed is what is inside it.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,6 +14,7 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.source_file import read_bytes, text_of
+from equipoise.io.formats.compressed import KINDS, ZIP, unpacked
 from equipoise.io.formats.csv_table import csv_text, cut
 from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
@@ -23,13 +25,14 @@ from equipoise.io.formats.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
 from equipoise.io.formats.ulog_file import MAGIC as ULOG
 from equipoise.io.formats.ulog_file import read_ulog
 from equipoise.io.formats.vicon_header import with_vicon_header
+from equipoise.io.formats.xlsx_table import is_workbook, read_xlsx
 from equipoise.io.mcap.mcap_recording import read_mcap, write_mcap
 from equipoise.io.mcap.mcap_salvage import MAGIC as MCAP
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 
-WANTED = "a recording (CSV, Parquet, MCAP, MAT, a bag of ROS, or ULog)"
+WANTED = "a recording (CSV, Excel, Parquet, MCAP, MAT, a bag of ROS, or ULog)"
 # The map is None where the header says what columns are.
 Read = Callable[[Path, bytes, ReadOptions], tuple[Table, ColumnMap | None]]
 Write = Callable[[Recording, Path], None]
@@ -55,10 +58,14 @@ def content_of(path: Path) -> bytes:
 
 def format_of(path: Path, content: bytes) -> Format:
     """Return the format of a file: by its first bytes, then by its suffix; else it is a text."""
-    if path.is_dir():
-        return BAG
+    return BAG if path.is_dir() else _format(path.suffix.lower(), content)
+
+
+def _format(suffix: str, content: bytes) -> Format:
+    if content.startswith(tuple(KINDS)) and not is_workbook(content):
+        return COMPRESSED
     marked = [each for each in FORMATS if each.marks and content.startswith(each.marks)]
-    named = [each for each in FORMATS if path.suffix.lower() in each.suffixes]
+    named = [each for each in FORMATS if suffix in each.suffixes]
     return next(iter((*marked, *named)), FORMATS[0])
 
 
@@ -78,6 +85,25 @@ def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table,
     if layout.skip_rows is None and layout.header:  # else a person has said where rows begin
         text = with_vicon_header(with_qualisys_header(text, source), source)
     return cut(text, source, layout), None
+
+
+def _read_inside(
+    path: Path, content: bytes, options: ReadOptions
+) -> tuple[Table, ColumnMap | None]:
+    """Return the table in the file that a compressed one holds."""
+    suffixes = tuple(suffix for each in FORMATS for suffix in each.suffixes)
+    name, inside = unpacked(content, path, suffixes)
+    kind = _format(Path(name).suffix.lower(), inside)
+    if kind is COMPRESSED:
+        found = f"a compressed file in a compressed file ('{name}')"
+        raise InputError(str(path), found, "one that is compressed once: unpack it")
+    return kind.read(path, inside, options)
+
+
+def _read_workbook(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+    if not is_workbook(content):  # some programs write a text under such a name
+        return _read_text(path, content, options)
+    return read_xlsx(content, str(path), options.layout), None
 
 
 def _table(read: Callable[[bytes, str], Table]) -> Read:
@@ -100,9 +126,11 @@ def _write_mcap(recording: Recording, path: Path) -> None:
         write_mcap(recording, temporary)
 
 
+COMPRESSED = Format("compressed", (), tuple(KINDS), _read_inside, None)
 BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), lambda path, c, _: read_bag(path, c), None)
 FORMATS = (
     Format("csv", (".csv", ".txt", ".tsv"), (), _read_text, _columns(lambda c, _: csv_text(c))),
+    Format("xlsx", (".xlsx", ".xlsm"), (ZIP,), _read_workbook, None),
     Format("parquet", (".parquet",), (PARQUET,), _table(read_parquet), _columns(parquet_bytes)),
     Format("mcap", (".mcap",), (MCAP,), _log(read_mcap), _write_mcap),
     Format(

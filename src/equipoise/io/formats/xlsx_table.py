@@ -1,0 +1,120 @@
+"""An Excel workbook: the first of its sheets that holds rows of numbers, cell by cell as text.
+
+Format (public: ECMA-376, Office Open XML): a zip archive of XML, read by openpyxl. It is an extra,
+imported when a workbook is met and not before.
+"""
+
+import io
+import itertools
+import warnings
+import zipfile
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from equipoise.io.columns.column_map import Layout
+from equipoise.io.columns.table import Table
+from equipoise.io.formats.compressed import LARGEST, ZIP
+from equipoise.io.formats.csv_table import table_of
+from equipoise.io.formats.optional_libraries import extra_library
+from equipoise.model.errors import EquipoiseError, InputError
+
+WORKBOOK = "xl/workbook.xml"  # the file of an archive that makes it a workbook
+WANTED = "an Excel workbook with a sheet of a header and rows of numbers"
+INSTEAD = ", or save the sheet as CSV"
+ROWS = 1 << 20  # of a sheet, at most (Excel's limit)
+CELLS = 1 << 24  # of a sheet, at most (chosen: 16 columns of all rows)
+FEWEST = 2  # rows of two numbers that make a sheet a table (chosen)
+Rows = list[list[str]]
+
+
+def is_workbook(content: bytes) -> bool:
+    """Say whether a file's bytes are those of a workbook, whole or cut."""
+    if not content.startswith(ZIP):
+        return False
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            return WORKBOOK in archive.namelist()
+    except Exception:  # a broken archive has no list, but the names stand before its members
+        return WORKBOOK.encode() in content
+
+
+def read_xlsx(content: bytes, source: str, layout: Layout) -> Table:
+    """Return the table in a workbook's bytes; InputError if it is broken or holds none."""
+    library = extra_library("openpyxl", source, "an Excel workbook", "excel", INSTEAD)
+    try:
+        with warnings.catch_warnings():  # of what openpyxl leaves aside: styles, pictures
+            warnings.simplefilter("ignore")
+            _check_size(content, source)
+            book = library.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
+            name, rows, lines = _sheet(book, source)
+    except EquipoiseError:
+        raise
+    except Exception as error:  # a parser of broken bytes raises anything
+        found = f"a workbook that openpyxl cannot read ({error})"
+        raise InputError(source, found, f"{WANTED}; save it anew in Excel{INSTEAD}") from error
+    table = table_of(rows, lines, source, layout)
+    others = ", ".join(f"'{sheet.title}'" for sheet in book.worksheets if sheet.title != name)
+    note = f"Taken from sheet '{name}'; sheets left aside: {others}."
+    return replace(table, notes=(*table.notes, note)) if others else table
+
+
+def _check_size(content: bytes, source: str) -> None:
+    """Raise InputError if a workbook is too large once it is unpacked."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        size = sum(member.file_size for member in archive.infolist())
+    if size > LARGEST:
+        raise InputError(source, f"a workbook of {size} bytes once unpacked", "a smaller one")
+
+
+def _sheet(book: Any, source: str) -> tuple[str, Rows, list[int]]:
+    """Return name, rows and their numbers of the first sheet that holds rows of numbers."""
+    for sheet in book.worksheets:
+        numbered = list(_rows(sheet, f"{source}, sheet '{sheet.title}'"))
+        if sum(map(_holds_numbers, (row for _, row in numbered))) >= FEWEST:
+            rows = _without_blank_columns([row for _, row in numbered])
+            return sheet.title, rows, [line for line, _ in numbered]
+    names = ", ".join(f"'{sheet.title}'" for sheet in book.worksheets)
+    raise InputError(source, f"no rows of numbers in sheets {names or '(none)'}", WANTED)
+
+
+def _rows(sheet: Any, where: str) -> Iterator[tuple[int, list[str]]]:
+    """Yield the rows that are not blank, each with its number in the sheet."""
+    sheet.reset_dimensions()  # what a file states of its size may be wrong
+    cells = 0
+    for line, row in enumerate(sheet.iter_rows(values_only=True), 1):
+        cells += len(row)
+        if line > ROWS or cells > CELLS:
+            wanted = f"at most {ROWS} rows and {CELLS} cells; clear what is empty, or save as CSV"
+            raise InputError(where, "too many cells", wanted)
+        texts = [_text(value) for value in row]
+        if any(map(str.strip, texts)):
+            yield line, texts
+
+
+def _text(value: object) -> str:
+    """Return a cell as text; a number has all its digits, a date is that of ISO 8601."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(int(value))
+    return repr(value) if isinstance(value, int | float) else str(value)
+
+
+def _holds_numbers(row: list[str]) -> bool:
+    return sum(map(_is_number, row)) > 1
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell.replace(",", "."))
+    except ValueError:
+        return False
+    return True
+
+
+def _without_blank_columns(rows: Rows) -> Rows:
+    """Return rows of one width; a table may begin in any column of a sheet."""
+    columns = itertools.zip_longest(*rows, fillvalue="")
+    kept = [column for column in columns if any(map(str.strip, column))]
+    return [list(row) for row in zip(*kept, strict=True)]
