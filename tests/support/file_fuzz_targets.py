@@ -2,11 +2,13 @@
 
 import contextlib
 import functools
+import gzip
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import zstandard
 
 from equipoise.app.runs.captured_bytes import recording_of_capture
 from equipoise.hardware.camera.eye import eye_of
@@ -23,7 +25,9 @@ from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 from tests.support.byte_captures import datagram_packet, pcap, pcapng, telemetry
+from tests.support.excel_files import RATE_SHEET, archive, workbook
 from tests.support.fuzz_target import Target
+from tests.support.mat_files import mat_4, mat_73
 from tests.support.sample_logs import IMU, bag_1, bag_2_file, record, ulog
 from tests.support.sensor_units import CAMERA, unit
 
@@ -189,6 +193,26 @@ def captured(driver: str) -> Callable[[Path], None]:
     return read
 
 
+def excel() -> bytes:
+    """Return a workbook of one sheet."""
+    return workbook({"run": RATE_SHEET})
+
+
+def packed(pack: Callable[[bytes], bytes]) -> bytes:
+    """Return our CSV, compressed."""
+    return pack(written(".csv")())
+
+
+PACKED = {
+    "gzip": functools.partial(gzip.compress, mtime=0),
+    "zip": lambda content: archive({"run.csv": content}),
+    "Zstandard": zstandard.compress,
+}
+RATES = {"time_s": TIMES} | {
+    f"omega_{k}_rad_s": THREE.rate.values[:, i] for i, k in enumerate("xyz")
+}
+
+
 def traffic(form: Callable[[list[tuple[float, bytes]]], bytes]) -> bytes:
     """Return three frames of Motive as network traffic."""
     frames = SENSORS["natnet"](unit("natnet")).messages(THREE)
@@ -205,6 +229,15 @@ TARGETS = (
     Target("CSV", written(".csv"), at(".csv", recording)),
     Target("MCAP", written(".mcap"), at(".mcap", mcap)),
     Target("MAT", written(".mat"), at(".mat", recording)),
+    *(
+        Target(f"MAT of version {name}", functools.partial(made, RATES), at(".mat", recording))
+        for name, made in (("4", mat_4), ("7.3", mat_73))
+    ),
+    Target("Excel", excel, at(".xlsx", recording)),
+    *(
+        Target(name, functools.partial(packed, pack), at(".dat", recording))
+        for name, pack in PACKED.items()
+    ),
     Target("Parquet", written(".parquet"), at(".parquet", recording), SHARE_OF_LIBRARIES),
     Target("bag of ROS 1", bag(bag_1), at(".bag", recording), SHARE_OF_LIBRARIES),
     Target("bag of ROS 2", bag(bag_2_file), at(".db3", recording), SHARE_OF_LIBRARIES),

@@ -68,9 +68,6 @@ def test_a_table_without_a_header_has_columns_by_number() -> None:
 STATED = {
     "names on line 3": (["a note", "another,1,2", HEADER], Layout(skip_rows=2)),
     "then units": (["a note", HEADER, "a,b,c"], Layout(skip_rows=1, units_row=True)),
-        ["a note", HEADER, "a,b,c"],
-        Layout(skip_rows=1, units_row=True),
-    ),
     "units of no known kind": ([HEADER, "a,b,c"], Layout(units_row=True)),
 }
 

@@ -55,8 +55,9 @@ def convert(
     Parameters
     ----------
     file
-        Recording: CSV, Parquet, MCAP, MAT, a bag of ROS 1 or 2, or a log of PX4 (ULog). With --as:
-        a terminal's log, a log of MAVLink (.tlog), or network traffic (.pcap, .pcapng).
+        Recording: CSV, Excel, Parquet, MCAP, MAT, a bag of ROS 1 or 2, or a log of PX4 (ULog), also
+        in .gz, .zst or .zip. With --as: a terminal's log, a log of MAVLink (.tlog), or network
+        traffic (.pcap, .pcapng).
     out
         File to write: .csv, .parquet, .mcap or .mat.
     """

@@ -18,6 +18,7 @@ from equipoise.model.units import DEG
 
 UNIT = 0.02  # by which a length may miss one (chosen)
 MOST = 14  # columns up to which any four are tried; beyond, neighbours alone (chosen)
+SIGNS = [(x, y, z) for x in (1, -1) for y in (1, -1) for z in (1, -1)]
 SEQUENCES = ("ZYX", "XYZ", "ZXY", "YXZ", "XZY", "YZX")
 # Words of angles about the first, the second and the third axis.
 ANGLE_WORDS = (
@@ -103,8 +104,7 @@ def angle_guesses(table: NumberTable, columns: tuple[str, ...]) -> Iterator[Atti
         units = (True,)
     elif stated & {"rad", "radian", "radians"}:
         units = (False,)
-    signs = list(product((1, -1), repeat=3))
-    for degrees, sequence, sign in product(units, SEQUENCES, signs):
+    for degrees, sequence, sign in product(units, SEQUENCES, SIGNS):
         yield AttitudeGuess(columns, 0, False, sequence, degrees, sign)
 
 
@@ -142,7 +142,8 @@ def _is_unit(table: NumberTable, columns: tuple[str, ...]) -> bool:
     if full.sum() < 3:
         return False
     length = np.linalg.norm(values[full], axis=1)
-    return bool(np.mean(np.abs(length - 1) < UNIT) > 0.9 and np.ptp(values[full], axis=0).any())
+    moves = bool((values[full] != values[full][0]).any())
+    return moves and float(np.mean(np.abs(length - 1) < UNIT)) > 0.9
 
 
 def _neighbours(names: list[str]) -> Iterator[tuple[str, ...]]:

@@ -1,1 +1,1 @@
-"""Table formats: CSV, Parquet, MAT, ULog, ROS bags."""
+"""Table formats: CSV, Excel, Parquet, MAT, ULog, ROS bags, and compressed files of these."""

@@ -13,10 +13,10 @@ from typing import Any, cast
 from scipy.io import savemat
 
 from equipoise.io.columns.table import Numbers, Table, finite
-from equipoise.io.formats.mat_variables import Array, listed, table_columns
-from equipoise.io.formats.mat_version_4 import is_version_4, variables_4
-from equipoise.io.formats.mat_version_5 import variables_5
-from equipoise.io.formats.mat_version_73 import variables_73
+from equipoise.io.formats.matlab.mat_variables import Array, listed, table_columns
+from equipoise.io.formats.matlab.mat_version_4 import is_version_4, variables_4
+from equipoise.io.formats.matlab.mat_version_5 import variables_5
+from equipoise.io.formats.matlab.mat_version_73 import variables_73
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.io.formats.mat_variables import Array
+from equipoise.io.formats.matlab.mat_variables import Array
 
 HEADER = 20  # bytes
 ORDERS = {"<": 0, ">": 1}  # first digit of the type

@@ -19,7 +19,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from equipoise.io.formats.mat_variables import DEEPEST, Array
+from equipoise.io.formats.matlab.mat_variables import DEEPEST, Array
 from equipoise.model.arrays import Series1
 
 HEADER = 128

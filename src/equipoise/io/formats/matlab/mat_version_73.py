@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.io.formats.mat_variables import DEEPEST, Array
+from equipoise.io.formats.matlab.mat_variables import DEEPEST, Array
 from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.model.errors import EquipoiseError
 
