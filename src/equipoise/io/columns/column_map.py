@@ -51,6 +51,7 @@ class ColumnMap:
     """What each column means. A map without attitude and rate holds nothing to estimate from."""
 
     time: tuple[Columns, ...]  # their sum is the time: seconds and nanoseconds come in two columns
+    time_format: str | None = None  # of text: 'ISO' or 'clock of the day'; None: a number
     quaternion: Columns | None = None  # w, x, y, z
     euler: Euler | None = None
     matrix: Columns | None = None  # nine, row by row, body to laboratory

@@ -10,7 +10,7 @@ body = ["x", "-z", "y"]             # our body axes in terms of the table's
 mean_of_frames = true               # quaternions may be short
 [time]
 column = "t"
-unit = "ms"
+unit = "ms"                         # or, for text: format = "ISO", or "clock of the day"
 [attitude]
 columns = ["qx", "qy", "qz", "qw"]
 order = "xyzw"
@@ -73,10 +73,11 @@ def _thrice(value: Any) -> Any:
 
 
 class TimeTable(Table):
-    """The clock."""
+    """The clock: a number with its unit, or a text with its format."""
 
     column: str
-    unit: str
+    unit: str | None = None
+    format: Literal["ISO", "clock of the day"] | None = None
 
 
 class TriadTable(Table):
@@ -151,7 +152,8 @@ def read_column_map(path: str | Path) -> ColumnMap:
     separator = "\t" if table.separator == "tab" else table.separator
     body = _axes(table.body, f"{source}: body") or ("x", "y", "z")
     return ColumnMap(
-        time=(Columns((table.time.column,), factor(table.time.unit, "time", f"{source}: time")),),
+        time=(_time(table.time, f"{source}: time"),),
+        time_format=table.time.format,
         **attitude_columns(table.attitude, f"{source}: attitude"),
         rate=_triad(table.rate, "rate", f"{source}: rate"),
         masses=tuple(
@@ -172,6 +174,13 @@ def read_column_map(path: str | Path) -> ColumnMap:
             separator, table.decimal, table.skip_rows, not table.no_header, table.units_row
         ),
     )
+
+
+def _time(table: TimeTable, where: str) -> Columns:
+    if (table.unit is None) == (table.format is None):
+        found = "neither 'unit' nor 'format'" if table.unit is None else "'unit' and 'format'"
+        raise InputError(where, found, "a unit such as 'ms', or a format of text such as 'ISO'")
+    return Columns((table.column,), factor(table.unit or "s", "time", where))
 
 
 def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:

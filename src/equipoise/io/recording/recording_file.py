@@ -10,6 +10,7 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.dialects import detect, dialect_map
 from equipoise.io.columns.read_options import AS_IT_IS, ReadOptions
 from equipoise.io.columns.table import Table
+from equipoise.io.columns.text_times import with_times_as_numbers
 from equipoise.io.recording.build_recording import recording_of
 from equipoise.io.recording.format_registry import content_of, format_of, format_to_write
 from equipoise.model.errors import InputError, nearest
@@ -24,7 +25,9 @@ def read_recording(path: str | Path, options: ReadOptions = AS_IT_IS) -> Recordi
     """
     content = content_of(Path(path))
     table, known = format_of(Path(path), content).read(Path(path), content, options)
-    recording = recording_of(table, _columns(table, known, options), options.bad_rows)
+    columns = _columns(table, known, options)
+    timed = with_times_as_numbers(table, columns)
+    recording = recording_of(timed, columns, options.bad_rows)
     return replace(recording, sha256=hashlib.sha256(content).hexdigest())
 
 

@@ -1,0 +1,82 @@
+"""Times that a table has as text, made seconds: dates of ISO 8601, clocks of the day."""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+
+from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.table import Numbers, Table
+from equipoise.model.errors import InputError
+
+CLOCK = re.compile(r"(\d{1,2}):(\d\d)(?::(\d\d(?:[.,]\d+)?))?")
+ISO = "ISO"
+
+
+def with_times_as_numbers(table: Table, columns: ColumnMap) -> Table:
+    """Return a table whose time is in seconds, if a map says how it is written.
+
+    Dates count from the first of them. A cell that is no such time is a faulty one.
+    """
+    if columns.time_format is None:
+        return table
+    name = columns.time[0].names[0]
+    if table.cell is None or name not in table.names:
+        return table
+    cells = [table.cell(name, row).strip() for row in range(len(table))]
+    read = _seconds_of_day if columns.time_format != ISO else _since(_first(cells))
+    values = np.array([read(cell) for cell in cells], dtype=np.float64)
+    filled = np.array([bool(cell) for cell in cells], dtype=bool)
+    numbers = Numbers(values, garbage=np.flatnonzero(np.isnan(values) & filled))
+    if np.isnan(values).all():
+        where, found = f"{table.source}, {table.place(0)}, column '{name}'", f"'{cells[0]}'"
+        raise InputError(where, found, _example(columns.time_format))
+    start = f"The clock starts at {_first(cells)}; this is taken as zero."
+    notes = (*table.notes, start) if columns.time_format == ISO else table.notes
+    return replace(table, column=_column(table, name, numbers), notes=notes)
+
+
+def _column(table: Table, time: str, numbers: Numbers) -> Callable[[Table, str], Numbers]:
+    """Return how the columns of a table are read when its times are numbers."""
+    return lambda _, name: numbers if name == time else table.numbers(name)
+
+
+def _first(cells: list[str]) -> datetime | None:
+    return next((date for date in map(_date, cells) if date is not None), None)
+
+
+def _date(cell: str) -> datetime | None:
+    """Return a date and time; one without a zone is taken as all the others are, in one zone."""
+    try:
+        date = datetime.fromisoformat(cell.replace(",", "."))
+    except ValueError:
+        return None
+    return date if date.tzinfo is not None else date.replace(tzinfo=UTC)
+
+
+def _since(first: datetime | None) -> Callable[[str], float]:
+    """Return how a date becomes seconds since the first."""
+
+    def seconds(cell: str) -> float:
+        date = _date(cell)
+        return math.nan if date is None or first is None else (date - first).total_seconds()
+
+    return seconds
+
+
+def _seconds_of_day(cell: str) -> float:
+    match = CLOCK.fullmatch(cell)
+    if match is None:
+        return math.nan
+    return (
+        3600.0 * int(match[1]) + 60.0 * int(match[2]) + float((match[3] or "0").replace(",", "."))
+    )
+
+
+def _example(written: str) -> str:
+    return (
+        "a date such as '2024-05-03T14:11:40.123'" if written == ISO else "a time as '14:11:40.123'"
+    )
