@@ -80,9 +80,9 @@ def _table(read: Callable[[bytes, str], Table]) -> Read:
     return lambda path, content, _options: (read(content, str(path)), None)
 
 
-def _log(read: Callable[[bytes, str], tuple[Table, ColumnMap]]) -> Read:
+def _log(read: Callable[[bytes, str, ReadOptions], tuple[Table, ColumnMap]]) -> Read:
     """Return how a log is read, which says itself what its columns are."""
-    return lambda path, content, _options: read(content, str(path))
+    return lambda path, content, options: read(content, str(path), options)
 
 
 def _columns(made: Callable[[Mapping[str, Series1], str], str | bytes]) -> Write:
@@ -95,7 +95,7 @@ def _write_mcap(recording: Recording, path: Path) -> None:
         write_mcap(recording, temporary)
 
 
-BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), lambda path, c, _: read_bag(path, c), None)
+BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), read_bag, None)
 FORMATS = (
     Format("csv", (".csv", ".txt"), (), _read_text, _columns(lambda c, _: csv_text(c))),
     Format("parquet", (".parquet",), (PARQUET,), _table(read_parquet), _columns(parquet_bytes)),
