@@ -28,8 +28,7 @@ class Source:
     count: int  # messages
     channels: Mapping[str, LogChannel] = field(default_factory=dict[str, LogChannel])
     instance: int = 0
-    by_name_only: bool = False  # what it holds is not known: it is taken if it is stated
-    flaw: str = ""  # why nothing of it is taken
+    doubt: str = ""  # why it is not taken unless it is stated
 
     def gives(self, channel: str) -> bool:
         """Say whether there is a row of a channel that holds numbers."""
@@ -44,9 +43,8 @@ class Source:
     def __str__(self) -> str:
         """Return how it is listed."""
         kind = "" if self.kind == self.name else f"{self.kind}, "
-        only = "taken if --topic names it" if self.by_name_only else ""
-        flaw = f": {self.flaw or only}" if self.flaw or only else ""
-        return f"'{self.name}' ({kind}{self.count} row{'s' * (self.count != 1)}{flaw})"
+        doubt = f": {self.doubt}" if self.doubt else ""
+        return f"'{self.name}' ({kind}{self.count} row{'s' * (self.count != 1)}{doubt})"
 
 
 def chosen(
@@ -73,7 +71,7 @@ def chosen(
 
 
 def _is_candidate(source: Source, options: ReadOptions) -> bool:
-    return source.name in options.topics if options.topics else not source.by_name_only
+    return source.name in options.topics if options.topics else not source.doubt
 
 
 def _best(
@@ -146,7 +144,7 @@ def _notes(taken: Taken, known: Sequence[Source]) -> list[str]:
 
 def _left(taken: Taken, known: Sequence[Source]) -> list[str]:
     used = {source.name for source in taken.values()}
-    left = [s for s in known if s.name not in used and (s.holds or s.flaw)]
+    left = [s for s in known if s.name not in used and (s.holds or s.doubt)]
     return [f"Topics left aside: {', '.join(_texts(left))}."] if left else []
 
 

@@ -5,7 +5,7 @@ of its attitude comes last; rates come from an inertial unit, else from odometry
 has a source for each child frame: ``/tf:child``. A transform with a single stamp is fixed.
 
 A vector may be anything: it is taken for the rate if it is stated, or if its topic's name says so.
-A twist or a vector in the axes of the laboratory is no rate in body axes.
+A twist or a vector in the axes of the laboratory is no rate in body axes: likewise if stated.
 """
 
 import re
@@ -100,7 +100,7 @@ class Topics:
     def sources(self) -> list[Source]:
         """Return the sources, with what is the matter with those that cannot be used."""
         frames = {rows.frame for (_, kind, _), rows in self._rows.items() if kind in IN_LABORATORY}
-        laboratories = LABORATORIES | frames
+        laboratories = LABORATORIES | (frames - {""})
         found = [
             _source(self._name(*key), key[1], rows, laboratories)
             for key, rows in self._rows.items()
@@ -115,11 +115,11 @@ class Topics:
 
 
 def _source(name: str, kind: str, rows: _Rows, laboratories: frozenset[str]) -> Source:
-    channels = rows.channels()
-    flaw = ""
     if kind in TREES and all(len(set(ns)) < 2 for ns in rows.ns.values()):
-        flaw = "one stamp, so no motion"
-    elif kind in (TWIST, VECTOR) and rows.frame in laboratories:
-        flaw = f"in the axes of '{rows.frame}', not the body's"
-    unclear = kind == VECTOR and SAYS_RATE.search(name) is None
-    return Source(name, kind, rows.count, {} if flaw else channels, 0, unclear, flaw)
+        return Source(name, kind, rows.count, doubt="one stamp, so no motion")
+    doubt = ""
+    if kind in (TWIST, VECTOR) and rows.frame in laboratories:
+        doubt = f"in the axes of '{rows.frame}'; --topic takes them for the body's"
+    elif kind == VECTOR and SAYS_RATE.search(name) is None:
+        doubt = "of what, it does not say; --topic takes it for the rate"
+    return Source(name, kind, rows.count, rows.channels(), doubt=doubt)
