@@ -5,7 +5,7 @@ of its attitude comes last; rates come from an inertial unit, else from odometry
 has a source for each child frame: ``/tf:child``. A transform with a single stamp is fixed.
 
 A vector may be anything: it is taken for the rate if it is stated, or if its topic's name says so.
-A twist or a vector in the axes of the laboratory is no rate in body axes: likewise if stated.
+A twist or a vector in the axes of the laboratory is no rate in body axes: it too has to be stated.
 """
 
 import re
