@@ -11,12 +11,15 @@ import numpy as np
 
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.formats.log_table import LogChannel
+from equipoise.model.arrays import Floats, Series1
 from equipoise.model.errors import InputError, nearest
 
 Best = Mapping[str, tuple[str, ...]]  # kinds of sources by channel, the best first
 Taken = Mapping[str, "Source"]  # by channel
 LISTED = 20  # topics, chosen: what fits a screen
 NEITHER = "no row of attitude or rate"
+PER_US = 1000  # ns
+LATEST_US = 2**62 // PER_US  # beyond, a count is no time (chosen)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,6 +48,17 @@ class Source:
         kind = "" if self.kind == self.name else f"{self.kind}, "
         doubt = f": {self.doubt}" if self.doubt else ""
         return f"'{self.name}' ({kind}{self.count} row{'s' * (self.count != 1)}{doubt})"
+
+
+def channel_of(name: str, us: Series1, values: Floats) -> LogChannel:
+    """Return rows at times in whole microseconds (n,), without those of an impossible time.
+
+    A quaternion of zeros was never filled in, and is left out.
+    """
+    timed = (us >= 0) & (us < LATEST_US)
+    if name == "attitude":
+        timed &= values.any(axis=1)
+    return LogChannel(name, us[timed].astype(np.int64) * PER_US, values[timed])
 
 
 def chosen(

@@ -13,9 +13,7 @@ Topics (public: PX4's message reference), of each channel the first that is logg
 A topic may have several instances, one for each sensor: the lowest that has rows, unless stated.
 
 Times are timestamp_sample where there is one, else timestamp, both microseconds since the board
-started. FRD (x ahead, y right, z down) becomes ahead, left, up; NED becomes north, west, up: half
-a turn about x on either side. So a platform that is level in the log is level here, and a
-testbed's body axes are ahead, left, up of the board.
+started. Axes as in ``flight_axes``.
 
 Format (public: docs.px4.io/main/en/dev_log/ulog_file_format.html), all numbers least byte first: a
 header of 16 bytes (magic, version, time); messages of a length (2 bytes, of the body), a type (1
@@ -40,12 +38,11 @@ from numpy.typing import NDArray
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
-from equipoise.io.formats.log_sources import Source, chosen
-from equipoise.io.formats.log_table import LogChannel, log_map, log_table
+from equipoise.io.formats.flight_axes import flight_map
+from equipoise.io.formats.log_sources import Source, channel_of, chosen
+from equipoise.io.formats.log_table import LogChannel, log_table
 
 MAGIC = b"ULog\x01\x12\x35"
-PER_US = 1000  # ns
-LATEST_US = 2**62 // PER_US  # beyond, a count is no time (chosen)
 Q = tuple(f"q[{k}]" for k in range(4))
 # Topics and their columns, the best first.
 SOURCES = {
@@ -73,7 +70,6 @@ TYPES = {
 DEEPEST = 4  # layouts within layouts; chosen: PX4 has two
 Column = tuple[str, str]  # name, type of NumPy
 Instance = tuple[str, int]  # of a topic
-FLU = ("x", "-y", "-z")  # ahead, left, up in terms of ahead, right, down
 
 
 def read_ulog(content: bytes, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
@@ -82,7 +78,7 @@ def read_ulog(content: bytes, source: str, options: ReadOptions) -> tuple[Table,
     damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
     channels, notes = chosen(list(_sources(log)), source, options, BEST)
     table = log_table(source, channels, None, (*damaged, *notes))
-    return table, log_map(channels, lab_up="-z", body=FLU)
+    return table, flight_map(channels)
 
 
 def _sources(log: "UlogTopics") -> Iterator[Source]:
@@ -99,11 +95,11 @@ def _channel(
     name: str, data: Mapping[str, NDArray[np.generic]], columns: tuple[str, ...]
 ) -> LogChannel:
     sampled = data.get("timestamp_sample", data["timestamp"])
-    us = np.array(sampled if sampled.dtype.kind == "u" else [], dtype=np.uint64)
-    timed = us < LATEST_US
+    if sampled.dtype.kind != "u":
+        sampled = np.full(len(sampled), -1.0)
     with np.errstate(invalid="ignore"):  # broken bytes may be a NaN that signals
         values = np.stack([np.array(data[each], dtype=np.float64) for each in columns], axis=1)
-    return LogChannel(name, us[timed].astype(np.int64) * PER_US, values[: len(us)][timed])
+    return channel_of(name, np.array(sampled, dtype=np.float64), values)
 
 
 @dataclass(slots=True)
