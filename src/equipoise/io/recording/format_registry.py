@@ -14,23 +14,29 @@ from equipoise.io.columns.table import Table
 from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.source_file import read_bytes, text_of
 from equipoise.io.formats.csv_table import csv_text, cut
+from equipoise.io.formats.dataflash_log import MAGIC as DATAFLASH
+from equipoise.io.formats.dataflash_log import read_dataflash
 from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
+from equipoise.io.formats.mavlink_log import read_tlog
 from equipoise.io.formats.parquet_table import MAGIC as PARQUET
 from equipoise.io.formats.parquet_table import parquet_bytes, read_parquet
 from equipoise.io.formats.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
+from equipoise.io.formats.tlog_capture import is_tlog
 from equipoise.io.formats.ulog_file import MAGIC as ULOG
 from equipoise.io.formats.ulog_file import read_ulog
+from equipoise.io.formats.vectornav_log import is_vectornav, read_vectornav
 from equipoise.io.mcap.mcap_recording import read_mcap, write_mcap
 from equipoise.io.mcap.mcap_salvage import MAGIC as MCAP
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 
-WANTED = "a recording (CSV, Parquet, MCAP, MAT, a bag of ROS, or ULog)"
+WANTED = "a recording (CSV, Parquet, MCAP, MAT, a bag of ROS, or a log of a flight controller)"
 # The map is None where the header says what columns are.
 Read = Callable[[Path, bytes, ReadOptions], tuple[Table, ColumnMap | None]]
 Write = Callable[[Recording, Path], None]
+Begins = Callable[[bytes], bool]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +45,7 @@ class Format:
 
     name: str
     suffixes: tuple[str, ...]
-    marks: tuple[bytes, ...]  # its first bytes; none: a text
+    begins: Begins | None  # whether a file begins as one; None: a text
     read: Read
     write: Write | None  # None: it is read only
 
@@ -55,7 +61,7 @@ def format_of(path: Path, content: bytes) -> Format:
     """Return the format of a file: by its first bytes, then by its suffix; else it is a text."""
     if path.is_dir():
         return BAG
-    marked = [each for each in FORMATS if each.marks and content.startswith(each.marks)]
+    marked = [each for each in FORMATS if each.begins is not None and each.begins(content)]
     named = [each for each in FORMATS if path.suffix.lower() in each.suffixes]
     return next(iter((*marked, *named)), FORMATS[0])
 
@@ -69,6 +75,11 @@ def format_to_write(path: Path) -> Write:
     written = [each.suffixes[0] for each in FORMATS if each.write is not None]
     wanted = f"a file name ending in {', '.join(written[:-1])} or {written[-1]}"
     raise InputError(str(path), f"suffix '{suffix}'", wanted)
+
+
+def _with(*marks: bytes) -> Begins:
+    """Return whether a file begins with one of some bytes."""
+    return lambda content: content.startswith(marks)
 
 
 def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
@@ -95,14 +106,21 @@ def _write_mcap(recording: Recording, path: Path) -> None:
         write_mcap(recording, temporary)
 
 
-BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), read_bag, None)
+BAG = Format("bag", (".bag", ".db3"), _with(ROS_1, ROS_2), read_bag, None)
 FORMATS = (
-    Format("csv", (".csv", ".txt"), (), _read_text, _columns(lambda c, _: csv_text(c))),
-    Format("parquet", (".parquet",), (PARQUET,), _table(read_parquet), _columns(parquet_bytes)),
-    Format("mcap", (".mcap",), (MCAP,), _log(read_mcap), _write_mcap),
+    Format("csv", (".csv", ".txt"), None, _read_text, _columns(lambda c, _: csv_text(c))),
+    Format("parquet", (".parquet",), _with(PARQUET), _table(read_parquet), _columns(parquet_bytes)),
+    Format("mcap", (".mcap",), _with(MCAP), _log(read_mcap), _write_mcap),
     Format(
-        "mat", (".mat",), (MAT, MAGIC_73), _table(read_mat), _columns(lambda c, _: mat_bytes(c))
+        "mat",
+        (".mat",),
+        _with(MAT, MAGIC_73),
+        _table(read_mat),
+        _columns(lambda c, _: mat_bytes(c)),
     ),
     BAG,
-    Format("ulog", (".ulg", ".ulog"), (ULOG,), _log(read_ulog), None),
+    Format("ulog", (".ulg", ".ulog"), _with(ULOG), _log(read_ulog), None),
+    Format("dataflash", (".bin",), _with(DATAFLASH), _log(read_dataflash), None),
+    Format("tlog", (".tlog",), is_tlog, _log(read_tlog), None),
+    Format("vectornav", (), is_vectornav, _log(read_vectornav), None),
 )
