@@ -15,6 +15,7 @@ from equipoise.io.recording.format_registry import FORMATS
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS
+from tests.support.flight_logs import flight, flown, terminal
 from tests.support.sample_logs import (
     IMU,
     ODOMETRY,
@@ -209,14 +210,15 @@ def samples(tmp_path_factory) -> dict[str, bytes]:
     made = {kind.name: (folder / f"{kind.name}{kind.suffixes[0]}") for kind in WRITTEN}
     made["bag"] = bag_1(folder / "one.bag", {"/imu": IMU})
     found = {name: path.read_bytes() for name, path in made.items()}
-    return found | {"ulog": ulog("sensor_combined")}
+    logs = {"ulog": ulog("sensor_combined"), "dataflash": flight("ATT", "IMU")}
+    return found | logs | {"tlog": flown("turned"), "vectornav": terminal("VNQMR").encode()}
 
 
 @pytest.mark.parametrize("kind", FORMATS, ids=lambda kind: kind.name)
 def test_a_broken_file_ends_with_the_declared_error(tmp_path, samples, kind):
     """Cut at forty places, and with forty places garbled."""
     content, rng = samples[kind.name], np.random.default_rng(1)
-    path = tmp_path / f"run{kind.suffixes[0]}"
+    path = tmp_path / f"run{next(iter(kind.suffixes), '.log')}"
     read, refused = 0, 0
     for k in range(80):
         at = int(rng.uniform(0, len(content)))

@@ -84,6 +84,13 @@ def chosen(
     return channels, (*_notes(taken, known), *_left(taken, known))
 
 
+def refuse_choice(options: ReadOptions, file: str, what: str) -> None:
+    """Raise InputError if a topic or an instance is stated of what has none."""
+    for option, stated in (("topic", bool(options.topics)), ("instance", options.instance)):
+        if stated not in (False, None):
+            raise InputError(file, f"--{option} for {what}", f"no --{option}: it has none")
+
+
 def _is_candidate(source: Source, options: ReadOptions) -> bool:
     return source.name in options.topics if options.topics else not source.doubt
 

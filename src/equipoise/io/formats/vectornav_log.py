@@ -1,4 +1,4 @@
-"""A terminal's log of a VectorNav VN-100 or VN-200: its ASCII messages, behind the terminal's clock.
+"""A terminal's log of a VectorNav VN-100 or VN-200: ASCII messages behind the terminal's clock.
 
     14:03:21.001 -> $VNQMR,x,y,z,w,mx,my,mz,ax,ay,az,p,q,r*CS
     [14:03:21.001] $VNYMR,yaw,pitch,roll,...,p,q,r*CS

@@ -17,7 +17,7 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
-from equipoise.io.formats.log_sources import chosen
+from equipoise.io.formats.log_sources import chosen, refuse_choice
 from equipoise.io.formats.log_table import LogChannel, log_map, log_table
 from equipoise.io.formats.log_topics import BEST, FRAME_TRANSFORM, LATEST
 from equipoise.io.mcap.foreign_mcap import foreign_sources
@@ -32,7 +32,6 @@ from equipoise.io.mcap.log_messages import (
     value_names,
 )
 from equipoise.io.mcap.mcap_salvage import Salvage, salvaged
-from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, rows_between
 
 SLICE = 2.0  # s to a chunk of a file that is written in one go (chosen: what a broken byte costs)
@@ -46,9 +45,7 @@ def read_mcap(content: bytes, source: str, options: ReadOptions) -> tuple[Table,
     if zero is None:
         channels, notices = chosen(foreign_sources(found, source), source, options, BEST)
         return log_table(source, channels, None, (*notes, *notices)), log_map(channels)
-    if options.topics or options.instance is not None:
-        stated = "--topic" if options.topics else "--instance"
-        raise InputError(source, f"{stated} for a recording of ours", f"no {stated}: all is read")
+    refuse_choice(options, source, "a recording of ours, which is read as a whole")
     ours = _our_channels(found)
     known = log_map(ours, ours=True)
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}

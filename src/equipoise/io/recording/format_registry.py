@@ -16,6 +16,7 @@ from equipoise.io.files.source_file import read_bytes, text_of
 from equipoise.io.formats.csv_table import csv_text, cut
 from equipoise.io.formats.dataflash_log import MAGIC as DATAFLASH
 from equipoise.io.formats.dataflash_log import read_dataflash
+from equipoise.io.formats.log_sources import refuse_choice
 from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
 from equipoise.io.formats.mavlink_log import read_tlog
@@ -83,12 +84,18 @@ def _with(*marks: bytes) -> Begins:
 
 
 def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+    refuse_choice(options, str(path), "a table")
     return cut(text_of(content, path, WANTED), str(path), options.layout), None
 
 
 def _table(read: Callable[[bytes, str], Table]) -> Read:
     """Return how a table is read whose columns its header explains."""
-    return lambda path, content, _options: (read(content, str(path)), None)
+
+    def reading(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+        refuse_choice(options, str(path), "a table")
+        return read(content, str(path)), None
+
+    return reading
 
 
 def _log(read: Callable[[bytes, str, ReadOptions], tuple[Table, ColumnMap]]) -> Read:
