@@ -1,1 +1,1 @@
-"""Table formats: CSV, Parquet, MAT, ULog, ROS bags."""
+"""Tables (CSV, Parquet, MAT) and logs (ROS, PX4, ArduPilot, MAVLink, VectorNav)."""

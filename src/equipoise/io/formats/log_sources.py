@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.formats.clock_units import PER_US
 from equipoise.io.formats.log_table import LogChannel
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.errors import InputError, nearest
@@ -18,7 +19,6 @@ Best = Mapping[str, tuple[str, ...]]  # kinds of sources by channel, the best fi
 Taken = Mapping[str, "Source"]  # by channel
 LISTED = 20  # topics, chosen: what fits a screen
 NEITHER = "no row of attitude or rate"
-PER_US = 1000  # ns
 LATEST_US = 2**62 // PER_US  # beyond, a count is no time (chosen)
 
 

@@ -25,7 +25,7 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
-from equipoise.io.formats.clock_units import PER_S, nanoseconds
+from equipoise.io.formats.clock_units import PER_MS, PER_S, PER_US, nanoseconds
 from equipoise.io.formats.flight_axes import flight_map
 from equipoise.io.formats.log_sources import Source, chosen
 from equipoise.io.formats.log_table import LogChannel, log_table
@@ -44,7 +44,6 @@ BEST = {"attitude": (QUATERNION, ANGLES), "rate": (HIGHRES, SCALED, RAW, QUATERN
 KNOWN = frozenset((*BEST["attitude"], *BEST["rate"], "SCALED_IMU2", "SCALED_IMU3"))
 GYRO = 0x38  # bits of HIGHRES_IMU.fields_updated: gyro x, y, z
 SAME = PER_S  # ns, chosen: clocks that differ by less are one; a step back by more is a new start
-PER_MS, PER_US = 1_000_000, 1_000  # ns
 NO_AUTOPILOT, ARDUPILOT = 8, 3  # MAV_AUTOPILOT
 
 
