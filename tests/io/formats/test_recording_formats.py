@@ -10,6 +10,7 @@ from pyulog import ULog
 from rosbags.rosbag1 import Writer as Writer1
 from scipy.io import savemat
 
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.formats.ulog_file import ulog_topics
 from equipoise.io.recording.format_registry import FORMATS
 from equipoise.io.recording.recording_file import read_recording, write_recording
@@ -107,6 +108,14 @@ def test_a_bag_without_what_we_know_is_refused(tmp_path):
         writer.write(connection, 1, ROS1.serialize_ros1(ROS1.types[kind]("hello"), kind))
     with pytest.raises(InputError, match="no row of attitude or rate"):
         read_recording(tmp_path / "run.bag")
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet", ".mat", ".mcap"])
+@pytest.mark.parametrize("stated", [{"topics": ("/imu",)}, {"instance": 0}])
+def test_what_has_neither_topics_nor_instances_has_none_to_choose(tmp_path, suffix, stated):
+    write_recording(record(), tmp_path / f"run{suffix}")
+    with pytest.raises(InputError, match=f"found --{next(iter(stated)).rstrip('s')} for a "):
+        read_recording(tmp_path / f"run{suffix}", ReadOptions(**stated))
 
 
 # --- ULog, written by hand from its public description ------------------------------------------

@@ -86,8 +86,9 @@ def chosen(
 
 def refuse_choice(options: ReadOptions, file: str, what: str) -> None:
     """Raise InputError if a topic or an instance is stated of what has none."""
-    for option, stated in (("topic", bool(options.topics)), ("instance", options.instance)):
-        if stated not in (False, None):
+    choices = {"topic": bool(options.topics), "instance": options.instance is not None}
+    for option, stated in choices.items():
+        if stated:
             raise InputError(file, f"--{option} for {what}", f"no --{option}: it has none")
 
 
