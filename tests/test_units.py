@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[1]
 UNITS = ROOT / "src" / "equipoise" / "model" / "units.py"
 PLACES = ("src", "tests", "verification", "benchmarks")
 # Whole nanoseconds of a log's clock are counted in integers, which no size in SI can do exactly.
-WHOLE_NANOSECONDS = {"io/formats/clock_units.py", "io/formats/ulog_file.py"}
+WHOLE_NANOSECONDS = {"io/formats/clock_units.py"}
 
 SIZES = {name for name in vars(units) if name.isupper()}
 OTHER_NAMES = {"MICRO", "NANO", "KILO", "MEGA", "KM", "HOUR", "MB", "MRAD"}

@@ -24,8 +24,10 @@ from equipoise.io.testbed.presets import preset_text, read_preset
 from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
+from tests.support import flight_logs
 from tests.support.byte_captures import datagram_packet, pcap, pcapng, telemetry
 from tests.support.excel_files import RATE_SHEET, archive, workbook
+from tests.support.flight_logs import terminal
 from tests.support.fuzz_target import Target
 from tests.support.mat_files import mat_4, mat_73
 from tests.support.sample_logs import IMU, bag_1, bag_2_file, record, ulog
@@ -242,6 +244,11 @@ TARGETS = (
     Target("bag of ROS 1", bag(bag_1), at(".bag", recording), SHARE_OF_LIBRARIES),
     Target("bag of ROS 2", bag(bag_2_file), at(".db3", recording), SHARE_OF_LIBRARIES),
     Target("ULog", lambda: ulog("sensor_combined"), at(".ulg", recording)),
+    Target("log of ArduPilot", lambda: flight_logs.flight("XKQ", "IMU"), at(".bin", recording)),
+    Target(
+        "log of MAVLink", lambda: flight_logs.flown("angles", "highres"), at(".tlog", recording)
+    ),
+    Target("log of VectorNav", lambda: terminal("VNQMR").encode(), at(".log", recording)),
     Target(
         "protocol buffers", lambda: bytes.fromhex("0a0208011500000000190000000000000000"), message
     ),

@@ -7,7 +7,7 @@ import numpy as np
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from equipoise.model.recording import Recording, Samples
 
@@ -16,6 +16,11 @@ START = 1_700_000_000  # s since 1970
 ROS1, ROS2 = get_typestore(Stores.ROS1_NOETIC), get_typestore(Stores.ROS2_HUMBLE)
 IMU, POSE = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PoseStamped"
 TURNED, ODOMETRY = "geometry_msgs/msg/QuaternionStamped", "nav_msgs/msg/Odometry"
+TRANSFORM, TREE = "geometry_msgs/msg/TransformStamped", "tf2_msgs/msg/TFMessage"
+OLD_TREE, ESTIMATE = "tf/msg/tfMessage", "geometry_msgs/msg/PoseWithCovarianceStamped"
+TWIST, VECTOR = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/Vector3Stamped"
+for store, kind in ((ROS1, TREE), (ROS1, OLD_TREE)):
+    store.register(get_types_from_msg("geometry_msgs/msg/TransformStamped[] transforms", kind))
 
 
 def record() -> Recording:
@@ -30,63 +35,81 @@ def record() -> Recording:
     )  # fmt: skip
 
 
-def message(store, kind: str, k: int):
-    """The k-th message of a topic: a quarter second after the one before."""
+def message(store, kind: str, k: int, child="platform", frame="x"):
+    """The k-th message of a topic: a quarter second after the one before.
+
+    A tree holds the child frames that are named, with commas between, and 'mount', which is fixed.
+    """
     types = store.types
-    stamp = types["builtin_interfaces/msg/Time"](START, 250_000_000 * k)
-    header_type = types["std_msgs/msg/Header"]
-    numbered = {"seq": k} if "seq" in header_type.__dataclass_fields__ else {}
-    header = header_type(**numbered, stamp=stamp, frame_id="x")
+    header = header_of(store, k, frame)
     w, x, y, z = TURN
     turn = types["geometry_msgs/msg/Quaternion"](x, y, z, w)
     vector = types["geometry_msgs/msg/Vector3"]
     point, none = types["geometry_msgs/msg/Point"](0.0, 0.0, 0.0), np.zeros(9)
     pose = types["geometry_msgs/msg/Pose"](point, turn)
     rate, still = vector(0.1 * k, 0.2, -0.3), vector(0.0, 0.0, 0.0)
+    twist = types["geometry_msgs/msg/Twist"](still, rate)
+    transform = types["geometry_msgs/msg/Transform"](still, turn)
     made = {
         IMU: (header, turn, none, rate, none, still, none),
         POSE: (header, pose),
         TURNED: (header, turn),
+        TRANSFORM: (header, child, transform),
+        TWIST: (header, twist),
+        VECTOR: (header, rate),
     }
-    if kind == ODOMETRY:
+    if kind in (TREE, OLD_TREE):
+        stamped = types[TRANSFORM]
+        moving = [stamped(header, each, transform) for each in child.split(",")]
+        fixed = stamped(header_of(store, 0, frame), "mount", transform)
+        made[kind] = (np.array([*moving, fixed]),)
+    if kind in (ODOMETRY, ESTIMATE):
         with_pose = types["geometry_msgs/msg/PoseWithCovariance"](pose, np.zeros(36))
-        twist = types["geometry_msgs/msg/Twist"](still, rate)
         with_twist = types["geometry_msgs/msg/TwistWithCovariance"](twist, np.zeros(36))
         made[ODOMETRY] = (header, "base", with_pose, with_twist)
+        made[ESTIMATE] = (header, with_pose)
     return types[kind](*made[kind])
 
 
-def bag_1(path: Path, topics: dict[str, str]) -> Path:
+def header_of(store, k: int, frame: str):
+    """The header of the k-th message."""
+    stamp = store.types["builtin_interfaces/msg/Time"](START, 250_000_000 * k)
+    header_type = store.types["std_msgs/msg/Header"]
+    numbered = {"seq": k} if "seq" in header_type.__dataclass_fields__ else {}
+    return header_type(**numbered, stamp=stamp, frame_id=frame)
+
+
+def bag_1(path: Path, topics: dict[str, str], **said: str) -> Path:
     with Writer1(path) as writer:
         for name, kind in topics.items():
             connection = writer.add_connection(name, kind, typestore=ROS1)
             for k in range(4):
-                data = ROS1.serialize_ros1(message(ROS1, kind, k), kind)
+                data = ROS1.serialize_ros1(message(ROS1, kind, k, **said), kind)
                 writer.write(connection, 77, data)
     return path
 
 
-def bag_2(path: Path, topics: dict[str, str], plugin=StoragePlugin.SQLITE3) -> Path:
+def bag_2(path: Path, topics: dict[str, str], plugin=StoragePlugin.SQLITE3, **said: str) -> Path:
     path = path.with_suffix("")
     with Writer2(path, version=9, storage_plugin=plugin) as writer:
         for name, kind in topics.items():
             connection = writer.add_connection(name, kind, typestore=ROS2)
             for k in range(4):
-                data = ROS2.serialize_cdr(message(ROS2, kind, k), kind)
+                data = ROS2.serialize_cdr(message(ROS2, kind, k, **said), kind)
                 writer.write(connection, 77, data)
     return path
 
 
-def bag_2_file(path: Path, topics: dict[str, str]) -> Path:
-    return next(bag_2(path, topics).glob("*.db3"))
+def bag_2_file(path: Path, topics: dict[str, str], **said: str) -> Path:
+    return next(bag_2(path, topics, **said).glob("*.db3"))
 
 
-def bag_2_mcap(path: Path, topics: dict[str, str]) -> Path:
-    return bag_2(path, topics, StoragePlugin.MCAP)
+def bag_2_mcap(path: Path, topics: dict[str, str], **said: str) -> Path:
+    return bag_2(path, topics, StoragePlugin.MCAP, **said)
 
 
-def bag_2_mcap_file(path: Path, topics: dict[str, str]) -> Path:
-    return next(bag_2_mcap(path, topics).glob("*.mcap"))
+def bag_2_mcap_file(path: Path, topics: dict[str, str], **said: str) -> Path:
+    return next(bag_2_mcap(path, topics, **said).glob("*.mcap"))
 
 
 def reported(kind: bytes, body: bytes) -> bytes:

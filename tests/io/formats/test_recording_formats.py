@@ -10,12 +10,14 @@ from pyulog import ULog
 from rosbags.rosbag1 import Writer as Writer1
 from scipy.io import savemat
 
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.formats.ulog_file import ulog_topics
 from equipoise.io.recording.format_registry import FORMATS
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS
 from tests.support.excel_files import RATE_SHEET, workbook
+from tests.support.flight_logs import flight, flown, terminal
 from tests.support.sample_logs import (
     IMU,
     ODOMETRY,
@@ -86,7 +88,9 @@ def test_bags_of_every_type_are_read(tmp_path, bag, kind):
 
 @pytest.mark.parametrize("bag", BAGS.values(), ids=BAGS.keys())
 def test_two_topics_of_a_type_are_listed(tmp_path, bag):
-    with pytest.raises(InputError, match="2 topics of sensor_msgs/msg/Imu: /a, /b"):
+    with pytest.raises(
+        InputError, match=r"2 topics of sensor_msgs/msg/Imu: /a \(4 rows\), /b \(4 rows\).*--topic"
+    ):
         read_recording(bag(tmp_path / "run.bag", {"/b": IMU, "/a": IMU}))
 
 
@@ -105,6 +109,14 @@ def test_a_bag_without_what_we_know_is_refused(tmp_path):
         writer.write(connection, 1, ROS1.serialize_ros1(ROS1.types[kind]("hello"), kind))
     with pytest.raises(InputError, match="no row of attitude or rate"):
         read_recording(tmp_path / "run.bag")
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet", ".mat", ".mcap"])
+@pytest.mark.parametrize("stated", [{"topics": ("/imu",)}, {"instance": 0}])
+def test_what_has_neither_topics_nor_instances_has_none_to_choose(tmp_path, suffix, stated):
+    write_recording(record(), tmp_path / f"run{suffix}")
+    with pytest.raises(InputError, match=f"found --{next(iter(stated)).rstrip('s')} for a "):
+        read_recording(tmp_path / f"run{suffix}", ReadOptions(**stated))
 
 
 # --- ULog, written by hand from its public description ------------------------------------------
@@ -202,14 +214,16 @@ def samples(tmp_path_factory) -> dict[str, bytes]:
     made = {kind.name: (folder / f"{kind.name}{kind.suffixes[0]}") for kind in WRITTEN}
     made["bag"] = bag_1(folder / "one.bag", {"/imu": IMU})
     found = {name: path.read_bytes() for name, path in made.items()}
-    return found | {"ulog": ulog("sensor_combined"), "xlsx": workbook({"run": RATE_SHEET})}
+    logs = {"ulog": ulog("sensor_combined"), "dataflash": flight("ATT", "IMU")}
+    logs |= {"tlog": flown("turned"), "vectornav": terminal("VNQMR").encode()}
+    return found | logs | {"xlsx": workbook({"run": RATE_SHEET})}
 
 
 @pytest.mark.parametrize("kind", FORMATS, ids=lambda kind: kind.name)
 def test_a_broken_file_ends_with_the_declared_error(tmp_path, samples, kind):
     """Cut at forty places, and with forty places garbled."""
     content, rng = samples[kind.name], np.random.default_rng(1)
-    path = tmp_path / f"run{kind.suffixes[0]}"
+    path = tmp_path / f"run{next(iter(kind.suffixes), '.log')}"
     read, refused = 0, 0
     for k in range(80):
         at = int(rng.uniform(0, len(content)))

@@ -218,7 +218,9 @@ def test_an_attitude_that_the_unit_says_it_has_not_is_none(tmp_path):
 
 
 def test_two_topics_of_a_type_are_listed(tmp_path):
-    with pytest.raises(InputError, match=r"2 topics of sensor_msgs/msg/Imu: /a, /b"):
+    with pytest.raises(
+        InputError, match=r"2 topics of sensor_msgs/msg/Imu: /a \(3 rows\), /b \(3 rows\).*--topic"
+    ):
         read_bytes_as(imu_file(("/b", "/a")), tmp_path)
 
 

@@ -55,9 +55,10 @@ def convert(
     Parameters
     ----------
     file
-        Recording: CSV, Excel, Parquet, MCAP, MAT, a bag of ROS 1 or 2, or a log of PX4 (ULog), also
-        in .gz, .zst or .zip. With --as: a terminal's log, a log of MAVLink (.tlog), or network
-        traffic (.pcap, .pcapng).
+        Recording: CSV, Excel, Parquet, MCAP, MAT, a bag of ROS 1 or 2, a log of PX4 (ULog),
+        ArduPilot (.bin) or MAVLink (.tlog), or a VectorNav's log of a terminal that put its clock
+        in front of each line; also in .gz, .zst or .zip. With --as: any terminal's log, a .tlog,
+        or network traffic (.pcap, .pcapng).
     out
         File to write: .csv, .parquet, .mcap or .mat.
     """

@@ -1,1 +1,1 @@
-"""Table formats: CSV, Excel, Parquet, MAT, ULog, ROS bags, and compressed files of these."""
+"""Tables (CSV, Excel, Parquet, MAT), logs of ROS and of flight controllers, compressed files."""

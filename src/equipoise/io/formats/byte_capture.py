@@ -5,9 +5,18 @@ A file is read as it is consumed, so one of hours takes no more memory than a sh
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import BinaryIO
+from typing import BinaryIO, Protocol, runtime_checkable
 
 CHUNK = 65536  # bytes, chosen: read at once
+
+
+@runtime_checkable
+class Readable(Protocol):
+    """Whatever gives bytes on demand: an open file, or bytes in memory."""
+
+    def read(self, size: int = -1, /) -> bytes:
+        """Return so many bytes, fewer at the end."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from equipoise.model.arrays import Ints, Series1
 
-PER_S = 10**9
+PER_S, PER_MS, PER_US = 10**9, 10**6, 10**3
 
 
 def nanoseconds(t: float) -> int:

@@ -1,70 +1,125 @@
-"""Which topics of another program's log are taken: the best type that there is, one topic of it.
+"""The topics of a log of ROS or Foxglove, filled message by message.
 
-A camera's pose goes before odometry, odometry before what an inertial unit makes up of its
-attitude; rates come from an inertial unit, else from odometry. Two topics of the chosen type are
-refused: nobody but the person who recorded them knows which is the platform's.
+A camera's pose goes before an estimator's, that before odometry, and what an inertial unit makes up
+of its attitude comes last; rates come from an inertial unit, else from odometry. A tree of frames
+has a source for each child frame: ``/tf:child``. A transform with a single stamp is fixed.
+
+A vector may be anything: it is taken for the rate if it is stated, or if its topic's name says so.
+A twist or a vector in the axes of the laboratory is no rate in body axes: it too has to be stated.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.io.formats.log_sources import Best, Source
 from equipoise.io.formats.log_table import LogChannel
-from equipoise.model.errors import InputError
 
 Values = Mapping[str, tuple[float, ...]]  # attitude (scalar first) or rate, or both
 POSE, TURN = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/QuaternionStamped"
+POSE_ESTIMATE = "geometry_msgs/msg/PoseWithCovarianceStamped"
+TRANSFORM, TREE = "geometry_msgs/msg/TransformStamped", "tf2_msgs/msg/TFMessage"
+OLD_TREE = "tf/msg/tfMessage"  # of ROS 1 before tf2
+TWIST, VECTOR = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/Vector3Stamped"
 ODOMETRY, IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
 FRAME_TRANSFORM, POSE_IN_FRAME = "foxglove.FrameTransform", "foxglove.PoseInFrame"
 LATEST = 2**62  # ns since 1970, chosen: the year 2116; beyond, a count is no time
-BEST = {
-    "attitude": (FRAME_TRANSFORM, POSE_IN_FRAME, POSE, TURN, ODOMETRY, IMU),
-    "rate": (IMU, ODOMETRY),
-}
+BEST: Best = {
+    "attitude": (
+        FRAME_TRANSFORM, POSE_IN_FRAME, TRANSFORM, POSE, TURN, POSE_ESTIMATE, ODOMETRY, TREE,
+        OLD_TREE, IMU,
+    ),
+    "rate": (IMU, ODOMETRY, TWIST, VECTOR),
+}  # fmt: skip
+TREES = (TREE, OLD_TREE)
+IN_LABORATORY = (TRANSFORM, POSE, POSE_ESTIMATE, ODOMETRY)  # types whose frame is the laboratory
+LABORATORIES = frozenset({"earth", "map", "odom", "world"})  # REP 105, and what many call it
+SAYS_RATE = re.compile(r"(?i:gyro|angular|omega)|(?<![A-Za-z])rates?(?![a-z])|Rates?(?![a-z])")
+
+
+class Sample(NamedTuple):
+    """What a message holds for us, or one of several such."""
+
+    ns: int  # its own stamp; 0: none
+    values: Values
+    frame: str = ""  # in which it is stated
+    part: str = ""  # of its topic: the frame that is turned
 
 
 @dataclass(slots=True)
-class Topic:
-    """The rows of one topic."""
+class _Rows:
+    """The rows of one source."""
 
-    name: str
-    type: str
+    count: int = 0
+    frame: str = ""
     ns: dict[str, list[int]] = field(default_factory=dict[str, list[int]])
-    rows: dict[str, list[tuple[float, ...]]] = field(
+    values: dict[str, list[tuple[float, ...]]] = field(
         default_factory=dict[str, list[tuple[float, ...]]]
     )
 
-    def add(self, ns: int, values: Values) -> None:
-        """Take a message in; one of an impossible time is left out."""
+    def add(self, sample: Sample, logged: int) -> None:
+        """Take a sample in; one of an impossible time is left out."""
+        ns = sample.ns or logged
         if not 0 <= ns < LATEST:
             return
-        for channel, row in values.items():
+        self.count += 1
+        self.frame = sample.frame
+        for channel, row in sample.values.items():
             self.ns.setdefault(channel, []).append(ns)
-            self.rows.setdefault(channel, []).append(row)
+            self.values.setdefault(channel, []).append(row)
+
+    def channels(self) -> dict[str, LogChannel]:
+        """Return what there is, by channel."""
+        return {
+            channel: LogChannel(channel, np.array(ns), np.array(self.values[channel], float))
+            for channel, ns in self.ns.items()
+        }
 
 
-def chosen(topics: Sequence[Topic], source: str) -> tuple[list[LogChannel], tuple[str, ...]]:
-    """Return the channels of the topics that are taken, and what was taken and left aside."""
-    found = {channel: _best(channel, topics, source) for channel in BEST}
-    taken = {channel: topic for channel, topic in found.items() if topic is not None}
-    channels = [
-        LogChannel(channel, np.array(topic.ns[channel]), np.array(topic.rows[channel], float))
-        for channel, topic in taken.items()
-    ]
-    notes = [f"{c}: taken from topic '{topic.name}' ({topic.type})." for c, topic in taken.items()]
-    used = [topic.name for topic in taken.values()]
-    left = ", ".join(f"'{topic.name}'" for topic in topics if topic.name not in used and topic.rows)
-    return channels, (*notes, *([f"Topics left aside: {left}."] if left else []))
+@dataclass(slots=True)
+class Topics:
+    """All topics of a log: the rows of known types, of others how many messages there are."""
+
+    counts: dict[tuple[str, str], int] = field(default_factory=dict[tuple[str, str], int])
+    _rows: dict[tuple[str, str, str], _Rows] = field(
+        default_factory=dict[tuple[str, str, str], _Rows]
+    )
+
+    def declare(self, name: str, kind: str, count: int) -> None:
+        """Note that a topic is there, and how many messages it has."""
+        self.counts[name, kind] = self.counts.get((name, kind), 0) + count
+
+    def add(self, name: str, kind: str, logged: int, samples: Sequence[Sample]) -> None:
+        """Take in what a message holds; ``logged``: ns, where it has no stamp itself."""
+        for sample in samples:
+            self._rows.setdefault((name, kind, sample.part), _Rows()).add(sample, logged)
+
+    def sources(self) -> list[Source]:
+        """Return the sources, with what is the matter with those that cannot be used."""
+        frames = {rows.frame for (_, kind, _), rows in self._rows.items() if kind in IN_LABORATORY}
+        laboratories = LABORATORIES | (frames - {""})
+        found = [
+            _source(self._name(*key), key[1], rows, laboratories)
+            for key, rows in self._rows.items()
+        ]
+        read = {(name, kind) for name, kind, _ in self._rows}
+        return found + [Source(*key, n) for key, n in self.counts.items() if key not in read]
+
+    def _name(self, name: str, kind: str, part: str) -> str:
+        """Return a source's name: its child frame is in it where the topic has several."""
+        parts = sum(key[:2] == (name, kind) for key in self._rows)
+        return f"{name}:{part}" if kind in TREES or parts > 1 else name
 
 
-def _best(channel: str, topics: Sequence[Topic], source: str) -> Topic | None:
-    for kind in BEST[channel]:
-        found = [topic for topic in topics if topic.type == kind and channel in topic.rows]
-        if len(found) > 1:
-            named = ", ".join(sorted(topic.name for topic in found))
-            wanted = "one, the platform's; leave the others out of the log"
-            raise InputError(source, f"{len(found)} topics of {kind}: {named}", wanted)
-        if found:
-            return found[0]
-    return None
+def _source(name: str, kind: str, rows: _Rows, laboratories: frozenset[str]) -> Source:
+    if kind in TREES and all(len(set(ns)) < 2 for ns in rows.ns.values()):
+        return Source(name, kind, rows.count, doubt="one stamp, so no motion")
+    doubt = ""
+    if kind in (TWIST, VECTOR) and rows.frame in laboratories:
+        doubt = f"in the axes of '{rows.frame}'; --topic takes them for the body's"
+    elif kind == VECTOR and SAYS_RATE.search(name) is None:
+        doubt = "of what, it does not say; --topic takes it for the rate"
+    return Source(name, kind, rows.count, rows.channels(), doubt=doubt)

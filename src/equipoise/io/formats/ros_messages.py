@@ -5,19 +5,52 @@ into the parent; frames are right-handed, the world's Z is up. An inertial unit 
 attitude says so by -1 as the first number of the covariance, and so with the rate.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from equipoise.io.formats.clock_units import PER_S
-from equipoise.io.formats.log_topics import IMU, ODOMETRY, POSE, TURN, Values
+from equipoise.io.formats.log_topics import (
+    IMU,
+    ODOMETRY,
+    OLD_TREE,
+    POSE,
+    POSE_ESTIMATE,
+    TRANSFORM,
+    TREE,
+    TURN,
+    TWIST,
+    VECTOR,
+    Sample,
+    Values,
+)
 
 NONE = -1.0  # REP 145: not known
 
 
-def stamp_of(message: Any) -> int:
-    """Return the time that a message bears, ns."""
-    stamp = message.header.stamp
-    return int(stamp.sec) * PER_S + int(stamp.nanosec)
+def samples_of(kind: str, message: Any) -> Sequence[Sample]:
+    """Return what a message of a known type holds; a tree of frames has several."""
+    if kind in (TREE, OLD_TREE):
+        return [_transform(each) for each in message.transforms]
+    if kind == TRANSFORM:
+        return [_transform(message)]
+    header = message.header
+    return [Sample(_stamp_of(header), DECODERS[kind](message), header.frame_id.lstrip("/"))]
+
+
+def is_known(kind: str) -> bool:
+    """Say whether messages of a type are read."""
+    return kind in DECODERS or kind in (TREE, OLD_TREE, TRANSFORM)
+
+
+def _stamp_of(header: Any) -> int:
+    """Return the time that a header bears, ns."""
+    return int(header.stamp.sec) * PER_S + int(header.stamp.nanosec)
+
+
+def _transform(stamped: Any) -> Sample:
+    values = _quaternion(stamped.transform.rotation)
+    parent, child = stamped.header.frame_id.lstrip("/"), stamped.child_frame_id.lstrip("/")
+    return Sample(_stamp_of(stamped.header), values, parent, child)
 
 
 def _quaternion(turn: Any) -> Values:
@@ -47,5 +80,8 @@ DECODERS: Mapping[str, Callable[[Any], Values]] = {
     IMU: _imu,
     ODOMETRY: _odometry,
     POSE: lambda message: _quaternion(message.pose.orientation),
+    POSE_ESTIMATE: lambda message: _quaternion(message.pose.pose.orientation),
     TURN: lambda message: _quaternion(message.quaternion),
+    TWIST: lambda message: _vector(message.twist.angular),
+    VECTOR: lambda message: _vector(message.vector),
 }

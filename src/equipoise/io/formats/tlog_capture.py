@@ -11,9 +11,8 @@ bytes are left out up to the next pair that makes sense.
 
 import struct
 from collections.abc import Iterator
-from typing import BinaryIO
 
-from equipoise.io.formats.byte_capture import CHUNK, Piece
+from equipoise.io.formats.byte_capture import CHUNK, Piece, Readable
 from equipoise.model.units import US
 
 STAMP = 8  # bytes
@@ -29,7 +28,7 @@ def is_tlog(beginning: bytes) -> bool:
     return _size(beginning, 0, None) > 0
 
 
-def tlog_pieces(file: BinaryIO) -> Iterator[Piece]:
+def tlog_pieces(file: Readable) -> Iterator[Piece]:
     """Yield the frames, each when it arrived."""
     data, at, last = b"", 0, None
     skipped = 0  # bytes, since the last frame

@@ -1,15 +1,19 @@
 """Logs of PX4 (ULog): attitude and rate of the vehicle.
 
-Topics (public: PX4's message reference):
+Topics (public: PX4's message reference), of each channel the first that is logged:
 
-    vehicle_attitude           q[0..3]: w x y z, turns FRD body axes into NED
-    vehicle_angular_velocity   xyz[0..2]: rad/s, FRD, filtered; or, where that is not logged,
-    sensor_combined            gyro_rad[0..2]: rad/s, FRD
+    vehicle_attitude              q[0..3]: w x y z, turns FRD body axes into NED
+    vehicle_attitude_groundtruth  q[0..3], of a simulator
+    vehicle_visual_odometry       q[0..3], into NED or a frame that has turned from it about down
+    vehicle_odometry              q[0..3], likewise
+    vehicle_angular_velocity      xyz[0..2]: rad/s, FRD, filtered
+    sensor_combined               gyro_rad[0..2]: rad/s, FRD
+    sensor_gyro                   x, y, z: rad/s, FRD
+
+A topic may have several instances, one for each sensor: the lowest that has rows, unless stated.
 
 Times are timestamp_sample where there is one, else timestamp, both microseconds since the board
-started. FRD (x ahead, y right, z down) becomes ahead, left, up; NED becomes north, west, up: half
-a turn about x on either side. So a platform that is level in the log is level here, and a
-testbed's body axes are ahead, left, up of the board.
+started. Axes as in ``flight_axes``.
 
 Format (public: docs.px4.io/main/en/dev_log/ulog_file_format.html), all numbers least byte first: a
 header of 16 bytes (magic, version, time); messages of a length (2 bytes, of the body), a type (1
@@ -25,27 +29,36 @@ Broken bytes are stepped over.
 """
 
 import struct
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
-from equipoise.io.formats.log_table import LogChannel, log_map, log_table
+from equipoise.io.formats.flight_axes import flight_map
+from equipoise.io.formats.log_sources import Source, channel_of, chosen
+from equipoise.io.formats.log_table import LogChannel, log_table
 
 MAGIC = b"ULog\x01\x12\x35"
-PER_US = 1000  # ns
-LATEST_US = 2**62 // PER_US  # beyond, a count is no time (chosen)
-# Topics and their columns; the first that is there is taken.
+Q = tuple(f"q[{k}]" for k in range(4))
+# Topics and their columns, the best first.
 SOURCES = {
-    "attitude": (("vehicle_attitude", tuple(f"q[{k}]" for k in range(4))),),
-    "rate": (
-        ("vehicle_angular_velocity", tuple(f"xyz[{k}]" for k in range(3))),
-        ("sensor_combined", tuple(f"gyro_rad[{k}]" for k in range(3))),
-    ),
+    "attitude": {
+        "vehicle_attitude": Q,
+        "vehicle_attitude_groundtruth": Q,
+        "vehicle_visual_odometry": Q,
+        "vehicle_odometry": Q,
+    },
+    "rate": {
+        "vehicle_angular_velocity": tuple(f"xyz[{k}]" for k in range(3)),
+        "sensor_combined": tuple(f"gyro_rad[{k}]" for k in range(3)),
+        "sensor_gyro": ("x", "y", "z"),
+    },
 }
+BEST = {channel: tuple(topics) for channel, topics in SOURCES.items()}
 HEADER = 16  # bytes
 SYNC = b"\x2f\x73\x13\x20\x25\x0c\xbb\x12"
 KINDS = frozenset(b"BFIMPQADSOLCR")  # of messages
@@ -56,52 +69,55 @@ TYPES = {
 }  # fmt: skip
 DEEPEST = 4  # layouts within layouts; chosen: PX4 has two
 Column = tuple[str, str]  # name, type of NumPy
-FLU = ("x", "-y", "-z")  # ahead, left, up in terms of ahead, right, down
+Instance = tuple[str, int]  # of a topic
 
 
-def read_ulog(content: bytes, source: str) -> tuple[Table, ColumnMap]:
+def read_ulog(content: bytes, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
     log = ulog_topics(content)
-    channels: list[LogChannel] = []
-    notes = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
-    for name, topics in SOURCES.items():
-        for topic, columns in topics:
-            data = log.columns(topic)
-            if {"timestamp", *columns} <= data.keys():
-                channels.append(_channel(name, data, columns))
-                notes.append(f"{name}: taken from topic '{topic}'.")
-                break
-    table = log_table(source, channels, None, tuple(notes))
-    return table, log_map(channels, lab_up="-z", body=FLU)
+    damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
+    channels, notes = chosen(list(_sources(log)), source, options, BEST)
+    table = log_table(source, channels, None, (*damaged, *notes))
+    return table, flight_map(channels)
+
+
+def _sources(log: "UlogTopics") -> Iterator[Source]:
+    """Yield every instance of every topic that is logged."""
+    for (topic, instance), rows in log.rows.items():
+        data, channels = log.columns(topic, instance), dict[str, LogChannel]()
+        for name, topics in SOURCES.items():
+            if topic in topics and {"timestamp", *topics[topic]} <= data.keys():
+                channels[name] = _channel(name, data, topics[topic])
+        yield Source(topic, topic, len(rows), channels, instance)
 
 
 def _channel(
     name: str, data: Mapping[str, NDArray[np.generic]], columns: tuple[str, ...]
 ) -> LogChannel:
     sampled = data.get("timestamp_sample", data["timestamp"])
-    us = np.array(sampled if sampled.dtype.kind == "u" else [], dtype=np.uint64)
-    timed = us < LATEST_US
+    if sampled.dtype.kind != "u":
+        sampled = np.full(len(sampled), -1.0)
     with np.errstate(invalid="ignore"):  # broken bytes may be a NaN that signals
         values = np.stack([np.array(data[each], dtype=np.float64) for each in columns], axis=1)
-    return LogChannel(name, us[timed].astype(np.int64) * PER_US, values[: len(us)][timed])
+    return channel_of(name, np.array(sampled, dtype=np.float64), values)
 
 
 @dataclass(slots=True)
 class UlogTopics:
-    """What a file's topics hold: rows of the first instance of each, as bytes until asked for."""
+    """What a file's topics hold: rows by topic and instance, as bytes until asked for."""
 
     layouts: dict[str, str] = field(default_factory=dict[str, str])
-    numbers: dict[int, str] = field(default_factory=dict[int, str])  # of subscriptions
-    rows: dict[str, list[bytes]] = field(default_factory=dict[str, list[bytes]])
+    numbers: dict[int, Instance] = field(default_factory=dict[int, Instance])  # of subscriptions
+    rows: dict[Instance, list[bytes]] = field(default_factory=dict[Instance, list[bytes]])
     broken: int = 0  # places that made no sense
 
-    def columns(self, topic: str) -> dict[str, NDArray[np.generic]]:
+    def columns(self, topic: str, instance: int = 0) -> dict[str, NDArray[np.generic]]:
         """Return a topic's columns, 'q[0]' of an array; none if it is not there."""
-        flat = _flat(self.layouts, topic, DEEPEST)
-        if not flat or topic not in self.rows:
+        flat, rows = _flat(self.layouts, topic, DEEPEST), self.rows.get((topic, instance), [])
+        if not flat or not rows:
             return {}
         kind = np.dtype([(f"c{k}", type_) for k, (_, type_) in enumerate(flat)])
-        whole = b"".join(r[: kind.itemsize] for r in self.rows[topic] if len(r) >= kind.itemsize)
+        whole = b"".join(row[: kind.itemsize] for row in rows if len(row) >= kind.itemsize)
         table = np.frombuffer(whole, dtype=kind)
         return {name: table[f"c{k}"] for k, (name, _) in enumerate(flat)}
 
@@ -127,10 +143,9 @@ def _take(found: UlogTopics, kind: int, body: bytes) -> None:
     if kind == ord("F"):
         name, _, layout = body.decode("ascii", errors="replace").partition(":")
         found.layouts.setdefault(name, layout)
-    elif kind == ord("A") and len(body) > 3 and body[0] == 0:
-        found.numbers.setdefault(
-            int.from_bytes(body[1:3], "little"), body[3:].decode(errors="replace")
-        )
+    elif kind == ord("A") and len(body) > 3:
+        subscribed = body[3:].decode(errors="replace"), body[0]
+        found.numbers.setdefault(int.from_bytes(body[1:3], "little"), subscribed)
     elif kind == ord("D") and len(body) > 2:
         topic = found.numbers.get(int.from_bytes(body[:2], "little"))
         if topic is not None:

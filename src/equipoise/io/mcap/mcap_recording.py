@@ -14,11 +14,13 @@ from typing import Any, cast
 import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
+from equipoise.io.formats.log_sources import chosen, refuse_choice
 from equipoise.io.formats.log_table import LogChannel, log_map, log_table
-from equipoise.io.formats.log_topics import FRAME_TRANSFORM, LATEST, chosen
-from equipoise.io.mcap.foreign_mcap import foreign_topics
+from equipoise.io.formats.log_topics import BEST, FRAME_TRANSFORM, LATEST
+from equipoise.io.mcap.foreign_mcap import foreign_sources
 from equipoise.io.mcap.foxglove_messages import turned
 from equipoise.io.mcap.live_recording import METADATA, ZERO_KEY, LiveRecording, Opening
 from equipoise.io.mcap.log_messages import (
@@ -35,15 +37,15 @@ from equipoise.model.recording import CHANNELS, Recording, rows_between
 SLICE = 2.0  # s to a chunk of a file that is written in one go (chosen: what a broken byte costs)
 
 
-def read_mcap(content: bytes, source: str) -> tuple[Table, ColumnMap]:
+def read_mcap(content: bytes, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return an MCAP file's rows and what they mean; InputError if there are none."""
     found = salvaged(content, source)
     notes = loss_notes(found)
     zero = time_zero(found)
     if zero is None:
-        topics = foreign_topics(found, source)
-        channels, notices = chosen(topics, source)
+        channels, notices = chosen(foreign_sources(found, source), source, options, BEST)
         return log_table(source, channels, None, (*notes, *notices)), log_map(channels)
+    refuse_choice(options, source, "a recording of ours, which is read as a whole")
     ours = _our_channels(found)
     known = log_map(ours, ours=True)
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}

@@ -16,14 +16,20 @@ from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.source_file import read_bytes, text_of
 from equipoise.io.formats.compressed import KINDS, ZIP, unpacked
 from equipoise.io.formats.csv_table import csv_text, cut
+from equipoise.io.formats.dataflash_log import MAGIC as DATAFLASH
+from equipoise.io.formats.dataflash_log import read_dataflash
+from equipoise.io.formats.log_sources import refuse_choice
 from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
+from equipoise.io.formats.mavlink_log import read_tlog
 from equipoise.io.formats.parquet_table import MAGIC as PARQUET
 from equipoise.io.formats.parquet_table import parquet_bytes, read_parquet
 from equipoise.io.formats.qualisys_header import with_qualisys_header
 from equipoise.io.formats.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
+from equipoise.io.formats.tlog_capture import is_tlog
 from equipoise.io.formats.ulog_file import MAGIC as ULOG
 from equipoise.io.formats.ulog_file import read_ulog
+from equipoise.io.formats.vectornav_log import is_vectornav, read_vectornav
 from equipoise.io.formats.vicon_header import with_vicon_header
 from equipoise.io.formats.xlsx_table import is_workbook, read_xlsx
 from equipoise.io.mcap.mcap_recording import read_mcap, write_mcap
@@ -32,10 +38,13 @@ from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 
-WANTED = "a recording (CSV, Excel, Parquet, MCAP, MAT, a bag of ROS, or ULog)"
+WANTED = (
+    "a recording (CSV, Excel, Parquet, MCAP, MAT, a bag of ROS, or a log of a flight controller)"
+)
 # The map is None where the header says what columns are.
 Read = Callable[[Path, bytes, ReadOptions], tuple[Table, ColumnMap | None]]
 Write = Callable[[Recording, Path], None]
+Begins = Callable[[bytes], bool]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +53,7 @@ class Format:
 
     name: str
     suffixes: tuple[str, ...]
-    marks: tuple[bytes, ...]  # its first bytes; none: a text
+    begins: Begins | None  # whether a file begins as one; None: a text
     read: Read
     write: Write | None  # None: it is read only
 
@@ -64,7 +73,7 @@ def format_of(path: Path, content: bytes) -> Format:
 def _format(suffix: str, content: bytes) -> Format:
     if content.startswith(tuple(KINDS)) and not is_workbook(content):
         return COMPRESSED
-    marked = [each for each in FORMATS if each.marks and content.startswith(each.marks)]
+    marked = [each for each in FORMATS if each.begins is not None and each.begins(content)]
     named = [each for each in FORMATS if suffix in each.suffixes]
     return next(iter((*marked, *named)), FORMATS[0])
 
@@ -80,7 +89,13 @@ def format_to_write(path: Path) -> Write:
     raise InputError(str(path), f"suffix '{suffix}'", wanted)
 
 
+def _with(*marks: bytes) -> Begins:
+    """Return whether a file begins with one of some bytes."""
+    return lambda content: content.startswith(marks)
+
+
 def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+    refuse_choice(options, str(path), "a table")
     text, source, layout = text_of(content, path, WANTED), str(path), options.layout
     if layout.skip_rows is None and layout.header:  # else a person has said where rows begin
         text = with_vicon_header(with_qualisys_header(text, source), source)
@@ -108,12 +123,17 @@ def _read_workbook(path: Path, content: bytes, options: ReadOptions) -> tuple[Ta
 
 def _table(read: Callable[[bytes, str], Table]) -> Read:
     """Return how a table is read whose columns its header explains."""
-    return lambda path, content, _options: (read(content, str(path)), None)
+
+    def reading(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+        refuse_choice(options, str(path), "a table")
+        return read(content, str(path)), None
+
+    return reading
 
 
-def _log(read: Callable[[bytes, str], tuple[Table, ColumnMap]]) -> Read:
+def _log(read: Callable[[bytes, str, ReadOptions], tuple[Table, ColumnMap]]) -> Read:
     """Return how a log is read, which says itself what its columns are."""
-    return lambda path, content, _options: read(content, str(path))
+    return lambda path, content, options: read(content, str(path), options)
 
 
 def _columns(made: Callable[[Mapping[str, Series1], str], str | bytes]) -> Write:
@@ -126,16 +146,23 @@ def _write_mcap(recording: Recording, path: Path) -> None:
         write_mcap(recording, temporary)
 
 
-COMPRESSED = Format("compressed", (), tuple(KINDS), _read_inside, None)
-BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), lambda path, c, _: read_bag(path, c), None)
+COMPRESSED = Format("compressed", (), None, _read_inside, None)
+BAG = Format("bag", (".bag", ".db3"), _with(ROS_1, ROS_2), read_bag, None)
 FORMATS = (
-    Format("csv", (".csv", ".txt", ".tsv"), (), _read_text, _columns(lambda c, _: csv_text(c))),
-    Format("xlsx", (".xlsx", ".xlsm"), (ZIP,), _read_workbook, None),
-    Format("parquet", (".parquet",), (PARQUET,), _table(read_parquet), _columns(parquet_bytes)),
-    Format("mcap", (".mcap",), (MCAP,), _log(read_mcap), _write_mcap),
+    Format("csv", (".csv", ".txt", ".tsv"), None, _read_text, _columns(lambda c, _: csv_text(c))),
+    Format("xlsx", (".xlsx", ".xlsm"), _with(ZIP), _read_workbook, None),
+    Format("parquet", (".parquet",), _with(PARQUET), _table(read_parquet), _columns(parquet_bytes)),
+    Format("mcap", (".mcap",), _with(MCAP), _log(read_mcap), _write_mcap),
     Format(
-        "mat", (".mat",), (MAT, MAGIC_73), _table(read_mat), _columns(lambda c, _: mat_bytes(c))
+        "mat",
+        (".mat",),
+        _with(MAT, MAGIC_73),
+        _table(read_mat),
+        _columns(lambda c, _: mat_bytes(c)),
     ),
     BAG,
-    Format("ulog", (".ulg", ".ulog"), (ULOG,), _log(read_ulog), None),
+    Format("ulog", (".ulg", ".ulog"), _with(ULOG), _log(read_ulog), None),
+    Format("dataflash", (".bin",), _with(DATAFLASH), _log(read_dataflash), None),
+    Format("tlog", (".tlog",), is_tlog, _log(read_tlog), None),
+    Format("vectornav", (), is_vectornav, _log(read_vectornav), None),
 )
