@@ -11,7 +11,7 @@ from rosbags.rosbag1 import Writer as Writer1
 from scipy.io import savemat
 
 from equipoise.io.columns.read_options import ReadOptions
-from equipoise.io.formats.ulog_file import ulog_topics
+from equipoise.io.logs.ulog_file import ulog_topics
 from equipoise.io.recording.format_registry import FORMATS
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError

@@ -17,9 +17,9 @@ from equipoise.hardware.sensors.natnet_packet import cut_packets
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.io.files.source_file import open_bytes
-from equipoise.io.formats.byte_capture import CHUNK, Piece, stream_pieces
-from equipoise.io.formats.pcap_capture import is_pcap, pcap_pieces
-from equipoise.io.formats.tlog_capture import is_tlog, tlog_pieces
+from equipoise.io.logs.byte_capture import CHUNK, Piece, stream_pieces
+from equipoise.io.logs.pcap_capture import is_pcap, pcap_pieces
+from equipoise.io.logs.tlog_capture import is_tlog, tlog_pieces
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port, SensorUnit
 from equipoise.model.recording import Recording

@@ -1,1 +1,1 @@
-"""Tables (CSV, Excel, Parquet, MAT), logs of ROS and of flight controllers, compressed files."""
+"""Tables: CSV, Excel, Parquet and MAT, and compressed files of whatever kind."""

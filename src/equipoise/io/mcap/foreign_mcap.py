@@ -4,10 +4,10 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from equipoise.io.formats.log_sources import Source
-from equipoise.io.formats.log_topics import OLD_TREE, TREE, Sample, Topics
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.formats.ros_messages import is_known, samples_of
+from equipoise.io.logs.log_sources import Source
+from equipoise.io.logs.log_topics import OLD_TREE, TREE, Sample, Topics
+from equipoise.io.logs.ros_messages import is_known, samples_of
 from equipoise.io.mcap.foxglove_messages import ROTATION, Turned, turned, turned_json
 from equipoise.io.mcap.mcap_salvage import Salvage
 

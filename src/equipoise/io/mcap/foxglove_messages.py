@@ -10,7 +10,7 @@ from functools import reduce
 from typing import Any
 
 from equipoise.io.formats.clock_units import PER_S
-from equipoise.io.formats.log_topics import FRAME_TRANSFORM, POSE_IN_FRAME
+from equipoise.io.logs.log_topics import FRAME_TRANSFORM, POSE_IN_FRAME
 from equipoise.io.mcap.protobuf_fields import double, fields, message, whole
 
 Turned = tuple[int, tuple[float, float, float, float]]  # ns, quaternion with the scalar first

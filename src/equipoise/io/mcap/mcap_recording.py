@@ -17,9 +17,9 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
-from equipoise.io.formats.log_sources import chosen, refuse_choice
-from equipoise.io.formats.log_table import LogChannel, log_map, log_table
-from equipoise.io.formats.log_topics import BEST, FRAME_TRANSFORM, LATEST
+from equipoise.io.logs.log_sources import chosen, refuse_choice
+from equipoise.io.logs.log_table import LogChannel, log_map, log_table
+from equipoise.io.logs.log_topics import BEST, FRAME_TRANSFORM, LATEST
 from equipoise.io.mcap.foreign_mcap import foreign_sources
 from equipoise.io.mcap.foxglove_messages import turned
 from equipoise.io.mcap.live_recording import METADATA, ZERO_KEY, LiveRecording, Opening

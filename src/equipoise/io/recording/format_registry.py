@@ -16,22 +16,22 @@ from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.source_file import read_bytes, text_of
 from equipoise.io.formats.compressed import KINDS, ZIP, unpacked
 from equipoise.io.formats.csv_table import csv_text, cut
-from equipoise.io.formats.dataflash_log import MAGIC as DATAFLASH
-from equipoise.io.formats.dataflash_log import read_dataflash
-from equipoise.io.formats.log_sources import refuse_choice
 from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
-from equipoise.io.formats.mavlink_log import read_tlog
 from equipoise.io.formats.parquet_table import MAGIC as PARQUET
 from equipoise.io.formats.parquet_table import parquet_bytes, read_parquet
 from equipoise.io.formats.qualisys_header import with_qualisys_header
-from equipoise.io.formats.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
-from equipoise.io.formats.tlog_capture import is_tlog
-from equipoise.io.formats.ulog_file import MAGIC as ULOG
-from equipoise.io.formats.ulog_file import read_ulog
-from equipoise.io.formats.vectornav_log import is_vectornav, read_vectornav
 from equipoise.io.formats.vicon_header import with_vicon_header
 from equipoise.io.formats.xlsx_table import is_workbook, read_xlsx
+from equipoise.io.logs.dataflash_log import MAGIC as DATAFLASH
+from equipoise.io.logs.dataflash_log import read_dataflash
+from equipoise.io.logs.log_sources import refuse_choice
+from equipoise.io.logs.mavlink_log import read_tlog
+from equipoise.io.logs.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
+from equipoise.io.logs.tlog_capture import is_tlog
+from equipoise.io.logs.ulog_file import MAGIC as ULOG
+from equipoise.io.logs.ulog_file import read_ulog
+from equipoise.io.logs.vectornav_log import is_vectornav, read_vectornav
 from equipoise.io.mcap.mcap_recording import read_mcap, write_mcap
 from equipoise.io.mcap.mcap_salvage import MAGIC as MCAP
 from equipoise.model.arrays import Series1

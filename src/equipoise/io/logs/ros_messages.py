@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from equipoise.io.formats.clock_units import PER_S
-from equipoise.io.formats.log_topics import (
+from equipoise.io.logs.log_topics import (
     IMU,
     ODOMETRY,
     OLD_TREE,

@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.io.formats.log_sources import Best, Source
-from equipoise.io.formats.log_table import LogChannel
+from equipoise.io.logs.log_sources import Best, Source
+from equipoise.io.logs.log_table import LogChannel
 
 Values = Mapping[str, tuple[float, ...]]  # attitude (scalar first) or rate, or both
 POSE, TURN = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/QuaternionStamped"

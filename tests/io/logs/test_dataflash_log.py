@@ -9,7 +9,7 @@ import pytest
 from pymavlink.DFReader import DFReader_binary
 
 from equipoise.io.columns.read_options import ReadOptions
-from equipoise.io.formats.dataflash_log import messages_of
+from equipoise.io.logs.dataflash_log import messages_of
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.model.errors import InputError
 from tests.support.flight_logs import HEADING, dataflash, flight, layout, logged, times

@@ -11,7 +11,7 @@ import numpy as np
 
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.formats.clock_units import PER_US
-from equipoise.io.formats.log_table import LogChannel
+from equipoise.io.logs.log_table import LogChannel
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.errors import InputError, nearest
 

@@ -26,12 +26,12 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.formats.clock_units import PER_MS, PER_S, PER_US, nanoseconds
-from equipoise.io.formats.flight_axes import flight_map
-from equipoise.io.formats.log_sources import Source, chosen
-from equipoise.io.formats.log_table import LogChannel, log_table
-from equipoise.io.formats.log_topics import LATEST
 from equipoise.io.formats.optional_libraries import extra_library
-from equipoise.io.formats.tlog_capture import tlog_pieces
+from equipoise.io.logs.flight_axes import flight_map
+from equipoise.io.logs.log_sources import Source, chosen
+from equipoise.io.logs.log_table import LogChannel, log_table
+from equipoise.io.logs.log_topics import LATEST
+from equipoise.io.logs.tlog_capture import tlog_pieces
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.arrays import Ints
 from equipoise.model.units import MILLI

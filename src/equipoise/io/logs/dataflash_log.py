@@ -27,9 +27,9 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
-from equipoise.io.formats.flight_axes import flight_map
-from equipoise.io.formats.log_sources import Source, channel_of, chosen
-from equipoise.io.formats.log_table import LogChannel, log_table
+from equipoise.io.logs.flight_axes import flight_map
+from equipoise.io.logs.log_sources import Source, channel_of, chosen
+from equipoise.io.logs.log_table import LogChannel, log_table
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.units import DEG

@@ -12,7 +12,7 @@ bytes are left out up to the next pair that makes sense.
 import struct
 from collections.abc import Iterator
 
-from equipoise.io.formats.byte_capture import CHUNK, Piece, Readable
+from equipoise.io.logs.byte_capture import CHUNK, Piece, Readable
 from equipoise.model.units import US
 
 STAMP = 8  # bytes

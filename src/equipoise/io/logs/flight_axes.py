@@ -8,7 +8,7 @@ level in the log is level here, and a testbed's body axes are ahead, left, up of
 from collections.abc import Sequence
 
 from equipoise.io.columns.column_map import ColumnMap
-from equipoise.io.formats.log_table import LogChannel, log_map
+from equipoise.io.logs.log_table import LogChannel, log_map
 
 FLU = ("x", "-y", "-z")  # ahead, left, up in terms of ahead, right, down
 

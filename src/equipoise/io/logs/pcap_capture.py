@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import BinaryIO
 
-from equipoise.io.formats.byte_capture import Piece
+from equipoise.io.logs.byte_capture import Piece
 from equipoise.model.units import NS, US
 
 PCAP = {  # magic: which end comes first, s in a unit of time

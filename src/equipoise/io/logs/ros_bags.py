@@ -12,11 +12,11 @@ from typing import Any
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
-from equipoise.io.formats.log_sources import Source, chosen
-from equipoise.io.formats.log_table import log_map, log_table
-from equipoise.io.formats.log_topics import BEST, Topics
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.formats.ros_messages import is_known, samples_of
+from equipoise.io.logs.log_sources import Source, chosen
+from equipoise.io.logs.log_table import log_map, log_table
+from equipoise.io.logs.log_topics import BEST, Topics
+from equipoise.io.logs.ros_messages import is_known, samples_of
 from equipoise.model.errors import EquipoiseError, InputError
 
 ROS_1, ROS_2 = b"#ROSBAG V2.0", b"SQLite format 3\x00"

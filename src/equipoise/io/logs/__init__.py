@@ -1,0 +1,1 @@
+"""Logs of other programs: ROS, flight controllers, inertial units, and captured bytes."""
