@@ -142,8 +142,11 @@ def _is_unit(table: NumberTable, columns: tuple[str, ...]) -> bool:
     if full.sum() < 3:
         return False
     length = np.linalg.norm(values[full], axis=1)
-    moves = bool((values[full] != values[full][0]).any())
-    return moves and float(np.mean(np.abs(length - 1) < UNIT)) > 0.9
+    return _moves(values[full]) and float(np.mean(np.abs(length - 1) < UNIT)) > 0.9
+
+
+def _moves(values: Floats) -> bool:
+    return bool(np.any(values != values[0]))
 
 
 def _neighbours(names: list[str]) -> Iterator[tuple[str, ...]]:

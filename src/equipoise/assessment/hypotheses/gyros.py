@@ -8,25 +8,28 @@ wrong direction or order it is large where the platform turned far about the ver
 """
 
 from dataclasses import dataclass
-from itertools import combinations, permutations
+from itertools import combinations
 
 import numpy as np
 
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
 from equipoise.maths.attitude import difference
 from equipoise.model.arrays import Floats, Ints, Series1, Series3, Series4
-from equipoise.model.units import DEG
+from equipoise.model.units import DEG, MILLI, RPM
 
 SPAN = 1.0  # s, over which rates are taken at most (chosen: a swing takes longer)
 SMALL = np.radians(15.0)  # turn up to which the integral of rates is a turn (chosen)
 LEAST = 0.02  # share of a column's variation that must be the motion's for it to be tried (chosen)
 FEWEST = 20  # spans (chosen)
 TRIED = 8  # columns that are tried as gyros, chosen: two inertial units and a magnetometer
+ORDERS = [(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]
 SIGNS = [(x, y, z) for x in (1, -1) for y in (1, -1) for z in (1, -1)]
 # What one count is, rad/s: the units in use, then data sheets of common gyros, deg/s a count.
-NAMED = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": 1e-3, "rpm": 2 * np.pi / 60}
 SHEETS = (1 / 131, 1 / 65.5, 1 / 32.8, 1 / 16.4, 8.75e-3, 17.5e-3, 35e-3, 70e-3, 1 / 14.375,
           1 / 16, 1 / 900)  # fmt: skip
+KNOWN = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": MILLI, "rpm": RPM} | {
+    f"{sheet:.6g} deg/s a count": sheet * DEG for sheet in SHEETS
+}
 NEAR = 0.08  # by which a factor may miss a known one (chosen)
 
 
@@ -49,6 +52,7 @@ class GyroGuess:
     """Three columns that may be a gyro: axis k of the body is ``signs[k] columns[k] factor``."""
 
     columns: tuple[str, str, str]
+    order: tuple[int, int, int]  # of the three axes' columns in the table
     signs: tuple[int, int, int]
     factor: float  # rad/s for one of the column's unit
     unit: str  # as it is known; '' for a factor that is none of those known
@@ -107,7 +111,7 @@ def _assignments(
     whole, power = float(np.sum(columns**2)), float(np.sum(rate**2))
     cross = rate.T @ columns
     found: list[GyroGuess] = []
-    for order in permutations(range(3)):
+    for order in ORDERS:
         x, y, z = (three[k] for k in order)  # the column of each axis
         along = cross[range(3), order]
         for signs in SIGNS:
@@ -116,18 +120,15 @@ def _assignments(
                 # The attitude is the noisier, so it is what is explained.
                 factor, unit = known_factor(projected / whole)
                 misfit = 1.0 - projected**2 / (power * whole)
-                found.append(GyroGuess((x, y, z), signs, factor, unit, misfit, len(rate)))
+                found.append(GyroGuess((x, y, z), order, signs, factor, unit, misfit, len(rate)))
     return found
 
 
 def known_factor(measured: float) -> tuple[float, str]:
-    """Return the known factor that a measured one means, and its unit; else the one measured."""
-    for unit, factor in NAMED.items():
-        if abs(measured / factor - 1) < NEAR:
-            return factor, unit
-    for sheet in SHEETS:
-        if abs(measured / (sheet * DEG) - 1) < NEAR:
-            return sheet * DEG, f"{sheet:.6g} deg/s a count"
+    """Return the known factor nearest to a measured one, and its unit; else the one measured."""
+    unit = min(KNOWN, key=lambda each: abs(float(np.log(measured / KNOWN[each]))))
+    if abs(measured / KNOWN[unit] - 1) < NEAR:
+        return KNOWN[unit], unit
     return measured, ""
 
 

@@ -17,17 +17,20 @@ from equipoise.assessment.hypotheses.attitudes import (
 from equipoise.assessment.hypotheses.clocks import ClockGuess, clock_guesses
 from equipoise.assessment.hypotheses.frames import FrameGuess, frame_guesses
 from equipoise.assessment.hypotheses.gyros import GyroGuess, gyro_guesses, spans_of, stem
-from equipoise.assessment.hypotheses.number_table import NumberTable
+from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
 from equipoise.model.arrays import Bools
 
 CLOCKS = 3  # that are tried (chosen)
+DOUBTED = 1.0  # doubt beyond the best clock's, from which a clock is not tried (chosen)
 MOST_ROWS = 12_000  # rows that are compared; chosen: minutes of any sensor
 AGREES = 0.5  # misfit up to which a gyro agrees with an attitude (chosen)
-ALIKE = 1.3  # times the least misfit, up to which another reading may be as good (chosen)
+BEST = 60  # assignments of a gyro that are kept of each attitude (chosen)
 SURE = 30.0  # by how much chi squared must differ for a reading to be worse (chosen)
+NEAR = 4.0  # by how much it may differ for what is usual to be preferred (chosen)
+SAME = 1e-6  # of the misfit, by which readings of the same motion differ (chosen: rounding)
 SHOWN = 12  # readings that are kept (chosen)
-NAMED = 3.0  # doubt of what the names speak against (chosen)
-STRANGE = 1.0  # doubt of what is unusual, where the data decide nothing (chosen)
+# Doubt of what the names speak against, and of what is unusual, where data decide nothing (chosen).
+NAMED, STRANGE = 3.0, 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,33 +38,43 @@ class TableReading:
     """One whole reading of a table."""
 
     clock: ClockGuess
-    attitude: AttitudeGuess | None
+    attitude: AttitudeGuess
     gyro: GyroGuess | None
-    frame: FrameGuess | None
+    frame: FrameGuess
     norm_sd: float = 0.0  # of the quaternions' lengths about one
+
+    @property
+    def has_names(self) -> bool:
+        """Say whether the columns' names say which axis is which."""
+        letters = [words_of(name)[-1:] for name in (*self.attitude.columns, *self._gyro_columns)]
+        return all(word and word[0][-1] in "wxyz" for word in letters) or bool(
+            self.attitude.sequence
+        )
+
+    @property
+    def _gyro_columns(self) -> tuple[str, ...]:
+        return () if self.gyro is None else self.gyro.columns
 
     @property
     def handed(self) -> bool:
         """Say whether the gyro's axes, as they are read, came in a right-handed order."""
         if self.gyro is None:
             return True
-        order = [sorted(self.gyro.columns).index(name) for name in self.gyro.columns]
-        return bool(np.linalg.det(np.eye(3)[order] * np.array(self.gyro.signs)[:, None]) > 0)
+        axes = np.eye(3)[list(self.gyro.order)] * np.array(self.gyro.signs)[:, None]
+        return bool(np.linalg.det(axes) > 0)
 
     @property
     def doubt(self) -> float:
         """Return how unusual the reading is, for where the data decide nothing."""
-        doubt = self.clock.doubt
-        if self.attitude is not None:
-            doubt += STRANGE * self.attitude.inverse
-            doubt += STRANGE * (self.attitude.scalar in (1, 2))
-            doubt += NAMED * (not self.attitude.named_as_read)
-            doubt += STRANGE * (self.attitude.signs != (1, 1, 1)) + 0.1 * (
-                self.attitude.sequence not in ("", "ZYX")
-            )
-        if self.gyro is not None:
-            doubt += STRANGE * (self.gyro.signs != (1, 1, 1)) + STRANGE * (not self.handed)
-            doubt += STRANGE * (not self.gyro.unit) + 0.5 * (not stem(self.gyro.columns))
+        attitude, gyro = self.attitude, self.gyro
+        doubt = self.clock.doubt + STRANGE * (self.frame.body_up != "z" or self.frame.lab_up != "z")
+        doubt += STRANGE * attitude.inverse + STRANGE * (attitude.scalar in (1, 2))
+        doubt += NAMED * (not attitude.named_as_read) + STRANGE * (attitude.signs != (1, 1, 1))
+        doubt += 0.1 * (attitude.sequence not in ("", "ZYX"))
+        if gyro is not None:
+            doubt += STRANGE * (gyro.signs != (1, 1, 1)) + STRANGE * (not self.handed)
+            doubt += STRANGE * (not gyro.unit) + 0.5 * (not stem(gyro.columns))
+            doubt += STRANGE * (gyro.order != (0, 1, 2))
         return doubt
 
 
@@ -69,36 +82,68 @@ class TableReading:
 class Ranked:
     """Readings: the likeliest first, then those as good by the data, then the next."""
 
-    alike: tuple[TableReading, ...]  # one: it is decided
+    alike: tuple[TableReading, ...]
     runner_up: TableReading | None  # the best of those that the data speak against
+    decided: bool  # the first is to be taken; else a person has to choose
 
 
 def ranked(table: NumberTable) -> Ranked:
-    """Return the readings of a table; none where it has no clock or no sensor."""
+    """Return the readings of a table; none where it has no clock or no attitude."""
     clocks = clock_guesses(table)[:CLOCKS]
-    readings = [r for clock in clocks for r in _readings(table, clock)]
+    clocks = [clock for clock in clocks if clock.doubt < clocks[0].doubt + DOUBTED]
+    readings = _different([r for clock in clocks for r in _readings(table, clock)])
     if not readings:
-        return Ranked((), None)
-    best = min(readings, key=_score)
-    alike = [r for r in readings if _is_alike(r, best)]
-    others = [r for r in readings if not _is_alike(r, best)]
-    alike.sort(key=lambda r: (r.doubt, _score(r)))
-    return Ranked(tuple(alike[:SHOWN]), min(others, key=_score, default=None))
+        return Ranked((), None, False)
+    best = min(readings, key=_misfit)
+    alike = sorted((r for r in readings if _excess(r, best) < SURE), key=lambda r: r.doubt)
+    others = [r for r in readings if _excess(r, best) >= SURE]
+    decided = len(alike) == 1 or _is_usual(alike[0], alike[1], best)
+    return Ranked(tuple(alike[:SHOWN]), min(others, key=_misfit, default=None), decided)
 
 
-def _score(reading: TableReading) -> float:
-    """Return the misfit, a gyro that agrees before none."""
-    misfit = 1.0 if reading.gyro is None else reading.gyro.misfit
-    return misfit + 10.0 * max(0.0, reading.clock.doubt - 3.0)
+def _is_usual(first: TableReading, second: TableReading, best: TableReading) -> bool:
+    """Say whether names and usage decide between readings that the data leave alike.
+
+    They may where the columns' names have meaning and the data do not speak against them at all.
+    """
+    if not first.has_names or _excess(first, best) > NEAR:
+        return False
+    return first.gyro is not None and first.doubt + STRANGE <= second.doubt
 
 
-def _is_alike(reading: TableReading, best: TableReading) -> bool:
-    """Say whether the data leave a reading as likely as the best one."""
+def _misfit(reading: TableReading) -> float:
+    return 1.0 if reading.gyro is None else reading.gyro.misfit
+
+
+def _excess(reading: TableReading, best: TableReading) -> float:
+    """Return by how much chi squared of a reading is above the best's; infinite without a gyro."""
     if best.gyro is None or reading.gyro is None:
-        return (best.gyro is None) == (reading.gyro is None)
+        return 0.0 if best.gyro is reading.gyro else np.inf
     least = max(best.gyro.misfit, 1e-9)
-    excess = reading.gyro.misfit / least - 1.0
-    return excess < ALIKE - 1.0 or excess * 3 * best.gyro.spans < SURE
+    return (reading.gyro.misfit / least - 1.0) * 3 * best.gyro.spans
+
+
+def _different(readings: list[TableReading]) -> list[TableReading]:
+    """Return one reading of each motion: of several the one with the least doubt.
+
+    A quaternion in another order, of the other direction, is the same motion with other axes, which
+    the order of the gyro then undoes.
+    """
+    kept: dict[tuple[object, ...], TableReading] = {}
+    for reading in sorted(readings, key=lambda r: r.doubt):
+        kept.setdefault(_motion(reading), reading)
+    return list(kept.values())
+
+
+def _motion(reading: TableReading) -> tuple[object, ...]:
+    """Return what distinguishes the motion of a reading from others."""
+    clock, attitude, gyro = reading.clock, reading.attitude, reading.gyro
+    which = (clock.column, clock.unit, attitude.columns)
+    if gyro is not None:
+        return (*which, frozenset(gyro.columns), round(np.log(max(gyro.misfit, 1e-12)) / SAME))
+    if attitude.sequence:
+        return (*which, attitude)
+    return (*which, (attitude.scalar + attitude.inverse) % 2)
 
 
 def _readings(table: NumberTable, clock: ClockGuess) -> Iterable[TableReading]:
@@ -128,7 +173,7 @@ def _of_attitude(
         q = attitude_of(part, guess)
         frame = frame_guesses(q)[0]
         gyros = gyro_guesses(spans.rates(q), spans)
-        agreeing = [gyro for gyro in gyros[:24] if gyro.misfit < AGREES]
+        agreeing = [gyro for gyro in gyros[:BEST] if gyro.misfit < AGREES]
         for gyro in agreeing:
             yield TableReading(clock, guess, gyro, frame, norm)
         if not agreeing:
