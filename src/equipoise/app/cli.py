@@ -25,6 +25,7 @@ from equipoise.app.commands.design import design
 from equipoise.app.commands.devices import devices
 from equipoise.app.commands.emulate import emulate
 from equipoise.app.commands.identify import identify
+from equipoise.app.commands.import_ import import_
 from equipoise.app.commands.inspect import inspect
 from equipoise.app.commands.laws import laws
 from equipoise.app.commands.logbook import logbook
@@ -59,7 +60,8 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 COMMANDS = (
-    demo, new, design, plan, simulate, inspect, observe, identify, calibrate, assess, methods,
+    demo, new, design, plan, simulate, import_, inspect, observe, identify, calibrate, assess,
+    methods,
     balance, laws, compare, reproduce, devices, check, emulate, record, convert, repair, replay,
     track, print_board, calibrate_camera, dashboard, report,
     logbook,

@@ -137,12 +137,13 @@ def _is_component(values: Floats) -> bool:
 
 
 def _is_unit(table: NumberTable, columns: tuple[str, ...]) -> bool:
-    values = np.stack([table.column(name) for name in columns], axis=1)
+    values: Floats = np.stack([table.column(name) for name in columns], axis=1)
     full = np.isfinite(values).all(axis=1)
     if full.sum() < 3:
         return False
-    length = np.linalg.norm(values[full], axis=1)
-    return _moves(values[full]) and float(np.mean(np.abs(length - 1) < UNIT)) > 0.9
+    kept: Floats = values[full]
+    length = np.linalg.norm(kept, axis=1)
+    return _moves(kept) and float(np.mean(np.abs(length - 1) < UNIT)) > 0.9
 
 
 def _moves(values: Floats) -> bool:

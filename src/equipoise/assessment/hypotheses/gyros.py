@@ -1,10 +1,11 @@
 """Which columns may be a gyro, by what the attitude says of the rate of turn.
 
-    c(t) = f s w_a(t) + b          for a column c: axis a of the body rate w, sign s, zero b
+    w_a(t) = f s c(t) + b          for axis a of the body rate w: column c, sign s, zero b
 
-Means over spans between two attitudes are compared, so that noise and delays do little. The factor
-f is common to the three axes. The share of their variation that this leaves is the misfit: of a
-wrong direction or order it is large where the platform turned far about the vertical.
+Compared are sums of turns from attitude to attitude with the integral of a column, both without
+what is straight in time: so the noise of attitudes does not grow and a zero does nothing. The
+factor f is common to the three axes. The share of their variation that this leaves is the misfit:
+of a wrong direction or order it is large where the platform turned well about the vertical.
 """
 
 from dataclasses import dataclass
@@ -14,11 +15,11 @@ import numpy as np
 
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
 from equipoise.maths.attitude import difference
-from equipoise.model.arrays import Floats, Ints, Series1, Series3, Series4
+from equipoise.model.arrays import Floats, Ints, Series, Series1, Series3, Series4
 from equipoise.model.units import DEG, MILLI, RPM
 
-SPAN = 1.0  # s, over which rates are taken at most (chosen: a swing takes longer)
-SMALL = np.radians(15.0)  # turn up to which the integral of rates is a turn (chosen)
+SPAN = 0.2  # s, over which turns are taken at most (chosen: a swing takes longer)
+SMALL = np.radians(10.0)  # turn up to which the integral of rates is a turn (chosen)
 LEAST = 0.02  # share of a column's variation that must be the motion's for it to be tried (chosen)
 FEWEST = 20  # spans (chosen)
 TRIED = 8  # columns that are tried as gyros, chosen: two inertial units and a magnetometer
@@ -30,7 +31,7 @@ SHEETS = (1 / 131, 1 / 65.5, 1 / 32.8, 1 / 16.4, 8.75e-3, 17.5e-3, 35e-3, 70e-3,
 KNOWN = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": MILLI, "rpm": RPM} | {
     f"{sheet:.6g} deg/s a count": sheet * DEG for sheet in SHEETS
 }
-NEAR = 0.08  # by which a factor may miss a known one (chosen)
+NEAR = 0.05  # by which a factor may miss a known one (chosen)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,9 +43,20 @@ class Spans:
     duration: Series1  # s
     means: dict[str, Series1]
 
-    def rates(self, q: Series4) -> Series3:
-        """Return the mean rate over each span, rad/s, body axes."""
-        return difference(q[self.starts + self.lag], q[self.starts]) / self.duration[:, None]
+    def turns(self, q: Series4) -> Series3:
+        """Return the sums of turns up to the end of each span, rad, body axes, nothing straight."""
+        return self._bent(difference(q[self.starts + self.lag], q[self.starts]))
+
+    def integrals(self) -> dict[str, Series1]:
+        """Return the integrals of the columns up to the end of each span, nothing straight."""
+        return {name: self._bent(mean * self.duration) for name, mean in self.means.items()}
+
+    def _bent(self, steps: Series) -> Series:
+        """Return sums of steps without their straight line in time."""
+        t = np.cumsum(self.duration)
+        straight = np.linalg.qr(np.stack([np.ones_like(t), t - t.mean()], axis=1))[0]
+        whole = np.cumsum(steps, axis=0)
+        return whole - straight @ (straight.T @ whole)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,18 +88,16 @@ def spans_of(t: Series1, q: Series4, table: NumberTable, names: list[str]) -> Sp
     return Spans(starts, lag, duration, {n: m for n, m in means.items() if _moves(m)})
 
 
-def gyro_guesses(rate: Series3, spans: Spans) -> list[GyroGuess]:
+def gyro_guesses(turns: Series3, columns: dict[str, Series1]) -> list[GyroGuess]:
     """Return gyros that the columns may hold, the one with the smallest misfit first."""
-    free = rate - rate.mean(axis=0)
-    columns = {name: mean - mean.mean() for name, mean in spans.means.items()}
-    tried = _columns_that_turn(free, columns)
-    found = [g for three in combinations(tried, 3) for g in _assignments(free, columns, three)]
+    tried = _columns_that_turn(turns, columns)
+    found = [g for three in combinations(tried, 3) for g in _assignments(turns, columns, three)]
     return sorted(found, key=lambda guess: guess.misfit)
 
 
-def _columns_that_turn(rate: Series3, columns: dict[str, Series1]) -> list[str]:
+def _columns_that_turn(turns: Series3, columns: dict[str, Series1]) -> list[str]:
     """Return the columns of which the motion explains most, in the table's order."""
-    shares = {name: _share(rate, column) for name, column in columns.items()}
+    shares = {name: _share(turns, column) for name, column in columns.items()}
     best = sorted(shares, key=lambda name: -shares[name])[:TRIED]
     return [name for name in columns if name in best and shares[name] > LEAST]
 
@@ -96,20 +106,20 @@ def _moves(values: Series1) -> bool:
     return bool(np.isfinite(values).all() and np.ptp(values) > 0)
 
 
-def _share(rate: Series3, column: Series1) -> float:
-    """Return the share of a column's variation that a linear map of the rate explains."""
-    answer = np.linalg.lstsq(rate, column, rcond=1e-9)[0]
-    left = column - rate @ answer
+def _share(turns: Series3, column: Series1) -> float:
+    """Return the share of a column's variation that a linear map of the turns explains."""
+    answer = np.linalg.lstsq(turns, column, rcond=1e-9)[0]
+    left = column - turns @ answer
     return 1.0 - float(left @ left) / float(column @ column)
 
 
 def _assignments(
-    rate: Series3, named: dict[str, Series1], three: tuple[str, ...]
+    turns: Series3, named: dict[str, Series1], three: tuple[str, ...]
 ) -> list[GyroGuess]:
     """Return the assignments of three columns to axes and signs."""
     columns = np.stack([named[name] for name in three], axis=1)
-    whole, power = float(np.sum(columns**2)), float(np.sum(rate**2))
-    cross = rate.T @ columns
+    whole, power = float(np.sum(columns**2)), float(np.sum(turns**2))
+    cross = turns.T @ columns
     found: list[GyroGuess] = []
     for order in ORDERS:
         x, y, z = (three[k] for k in order)  # the column of each axis
@@ -120,7 +130,7 @@ def _assignments(
                 # The attitude is the noisier, so it is what is explained.
                 factor, unit = known_factor(projected / whole)
                 misfit = 1.0 - projected**2 / (power * whole)
-                found.append(GyroGuess((x, y, z), order, signs, factor, unit, misfit, len(rate)))
+                found.append(GyroGuess((x, y, z), order, signs, factor, unit, misfit, len(turns)))
     return found
 
 

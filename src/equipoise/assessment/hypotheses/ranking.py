@@ -169,10 +169,11 @@ def _of_attitude(
     others = [n for n in table.names if n not in (*columns, clock.column)]
     spans = spans_of(t[full][:MOST_ROWS], attitude_of(part, guesses[0]), part, others)
     norm = 0.0 if guesses[0].sequence else norm_sd(part, columns)
+    integrals = spans.integrals()
     for guess in guesses:
         q = attitude_of(part, guess)
         frame = frame_guesses(q)[0]
-        gyros = gyro_guesses(spans.rates(q), spans)
+        gyros = gyro_guesses(spans.turns(q), integrals)
         agreeing = [gyro for gyro in gyros[:BEST] if gyro.misfit < AGREES]
         for gyro in agreeing:
             yield TableReading(clock, guess, gyro, frame, norm)

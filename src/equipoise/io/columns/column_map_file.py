@@ -145,8 +145,11 @@ class MapFile(Table):
 
 def read_column_map(path: str | Path) -> ColumnMap:
     """Return the map a file declares; InputError names file, key, found and wanted."""
-    table = read_toml(path, MapFile, WANTED)
-    source = str(path)
+    return column_map_of(read_toml(path, MapFile, WANTED), str(path))
+
+
+def column_map_of(table: MapFile, source: str) -> ColumnMap:
+    """Return the map that the tables of a file declare; ``source`` is the file."""
     if table.attitude is None and table.rate is None:
         raise InputError(source, "neither [attitude] nor [rate]", "at least one of them")
     separator = "\t" if table.separator == "tab" else table.separator
@@ -186,7 +189,8 @@ def _time(table: TimeTable, where: str) -> Columns:
 def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
     if table is None:
         return None
-    axes = None if table.axes is None else _axes(table.axes, f"{where}.axes")
+    # A gyro's axes may be left-handed: one that is mounted or wired the other way round.
+    axes = None if table.axes is None else _axes(table.axes, f"{where}.axes", kind != "rate")
     unit = factor(table.unit, kind, where) * table.factor
     return Columns(tuple(table.columns), unit, axes, tuple(table.offset))
 
@@ -196,9 +200,11 @@ def _device(table: DeviceTable, where: str) -> NamedColumn:
     return NamedColumn(f"{table.reports}:{table.name}", table.column, unit)
 
 
-def _axes(axes: list[Axis], where: str) -> tuple[str, str, str]:
-    """Return three axes that make a right-handed frame."""
+def _axes(axes: list[Axis], where: str, right_handed: bool = True) -> tuple[str, str, str]:
+    """Return three axes that make a frame."""
     x, y, z = axes
-    if not np.isclose(np.linalg.det(axes_matrix((x, y, z))), 1.0):
-        raise InputError(where, f"{axes}", "three different axes that make a right-handed frame")
+    handed = float(np.linalg.det(axes_matrix((x, y, z))))
+    if not np.isclose(handed if right_handed else abs(handed), 1.0):
+        frame = " that make a right-handed frame" if right_handed else ""
+        raise InputError(where, f"{axes}", f"three different axes{frame}")
     return x, y, z

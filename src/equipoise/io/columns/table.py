@@ -51,6 +51,7 @@ class Table:
     notes: tuple[str, ...] = ()  # what reading the table had to leave out
     faulty: tuple[FaultyRows, ...] = ()  # rows that hold nothing: a line that was cut, say
     cell: Callable[[str, int], str] | None = None  # what a cell holds, as text
+    units: tuple[str, ...] = ()  # of the columns, as a row below the names has them
     blank: str = BLANK  # how this kind of file says that there is no reading
 
     def __len__(self) -> int:

@@ -14,6 +14,7 @@ from equipoise.model.errors import InputError
 
 CLOCK = re.compile(r"(\d{1,2}):(\d\d)(?::(\d\d(?:[.,]\d+)?))?")
 ISO = "ISO"
+FORMATS = (ISO, "clock of the day")  # of times as text
 
 
 def with_times_as_numbers(table: Table, columns: ColumnMap) -> Table:

@@ -64,6 +64,7 @@ def table_of(
         (*header.notes, *notes, *short),
         faulty,
         lambda name, row: cells[header.names.index(name)][row],
+        header.units,
     )
 
 

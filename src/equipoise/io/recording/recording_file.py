@@ -25,10 +25,19 @@ def read_recording(path: str | Path, options: ReadOptions = AS_IT_IS) -> Recordi
     """
     content = content_of(Path(path))
     table, known = format_of(Path(path), content).read(Path(path), content, options)
-    columns = _columns(table, known, options)
-    timed = with_times_as_numbers(table, columns)
-    recording = recording_of(timed, columns, options.bad_rows)
+    recording = recording_from(table, _columns(table, known, options), options.bad_rows)
     return replace(recording, sha256=hashlib.sha256(content).hexdigest())
+
+
+def read_table(path: str | Path, options: ReadOptions = AS_IT_IS) -> tuple[Table, ColumnMap | None]:
+    """Return the table in a file, and what its columns mean where the file itself says so."""
+    content = content_of(Path(path))
+    return format_of(Path(path), content).read(Path(path), content, options)
+
+
+def recording_from(table: Table, columns: ColumnMap, bad_rows: float) -> Recording:
+    """Return what a table holds by a map of its columns; InputError if it makes no sense."""
+    return recording_of(with_times_as_numbers(table, columns), columns, bad_rows)
 
 
 def write_recording(recording: Recording, path: str | Path) -> None:

@@ -1,0 +1,114 @@
+"""`equipoise import`: what the columns of an unknown table mean, by what its numbers say."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.arguments.options import WHOLE, Reading, Whole
+from equipoise.app.console.terminal import busy, show_paths
+from equipoise.model.errors import InputError
+
+if TYPE_CHECKING:
+    from equipoise.app.runs.importing import Imported
+    from equipoise.assessment.hypotheses.ranking import TableReading
+    from equipoise.model.recording import Recording
+    from equipoise.model.testbed import Testbed
+
+
+def import_(
+    file: str,
+    /,
+    *,
+    testbed: str | None = None,
+    choose: Whole | None = None,
+    write_map: Path | None = None,
+    out: Path | None = None,
+    reading: Reading = WHOLE,
+) -> int:
+    """Find out how a table of unknown columns is to be read, and read it.
+
+    Whole readings are compared (clock and its unit, order and direction of the quaternion, axes,
+    signs and unit of the gyro, which axis is up) by unit length, gravity and the gyro. The best is
+    shown with its evidence and the next. Ends with 1 when several are alike; choose one.
+
+    Parameters
+    ----------
+    file
+        Table or log: CSV, Excel, Parquet, MAT and whatever `convert` reads.
+    testbed
+        Testbed file or preset: says which body axis is up, and checks that the platform stands.
+    choose
+        Reading to take, by its number, where several are alike.
+    write_map
+        Column map to write (TOML); every command that reads a recording takes it with --columns.
+    out
+        Recording to write: .csv, .parquet, .mcap or .mat.
+    """
+    from equipoise.app.arguments.inputs import read_options, testbed_from
+    from equipoise.app.runs.importing import imported
+    from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.recording.format_registry import format_to_write
+
+    if out is not None:
+        format_to_write(out)
+    for path in filter(None, (out, write_map)):
+        check_writable(path)
+    bed = None if testbed is None else testbed_from(testbed)
+    options = read_options(reading, "--")
+    with busy("comparing readings", announce=False):
+        found = imported(file, options)
+    return _read(found, choose, bed, Written(out, write_map, options.bad_rows))
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """What is written of a reading."""
+
+    out: Path | None
+    column_map: Path | None
+    bad_rows: float
+
+
+def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written: Written) -> int:
+    """Show the readings, and read the table by the one that is taken."""
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.runs.importing import axis_up
+    from equipoise.app.views.import_views import import_blocks
+    from equipoise.io.recording.frame_check import check_frame
+    from equipoise.io.recording.recording_file import recording_from
+
+    chosen = found.chosen(choose)
+    header = found.known is not None and not found.ranked.alike
+    if chosen is None and not header:
+        show(import_blocks(found.ranked, None, ()))
+        return 1
+    columns = found.known if chosen is None else found.columns(chosen, axis_up(bed))
+    assert columns is not None  # one of the two is there
+    recording = recording_from(found.table, columns, written.bad_rows)
+    notes = (*recording.notes, *recording.gaps)
+    show(import_blocks(found.ranked, chosen, notes, header))
+    if bed is not None:
+        check_frame(recording, bed)
+    _write(found, chosen, recording, written, axis_up(bed))
+    return 0
+
+
+def _write(
+    found: "Imported",
+    chosen: "TableReading | None",
+    recording: "Recording",
+    written: Written,
+    up: str,
+) -> None:
+    from equipoise.io.files.atomic_file import write_whole
+    from equipoise.io.recording.recording_file import write_recording
+    from equipoise.io.toml.write_toml import toml_text
+
+    if written.column_map is not None and chosen is not None:
+        write_whole(written.column_map, toml_text(found.map_keys(chosen, up)))
+    elif written.column_map is not None:
+        found_as = "a file that says itself what it holds"
+        raise InputError("--write-map", found_as, "no map: none is needed")
+    if written.out is not None:
+        write_recording(recording, written.out)
+    show_paths([path for path in (written.column_map, written.out) if path is not None])

@@ -1,0 +1,197 @@
+"""Which reading of an unknown table its numbers support, as a column map that reads it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from equipoise.assessment.hypotheses.number_table import NumberTable
+from equipoise.assessment.hypotheses.ranking import Ranked, TableReading, ranked
+from equipoise.io.columns.column_map import ColumnMap, Columns
+from equipoise.io.columns.column_map_file import MapFile, column_map_of
+from equipoise.io.columns.dialects import detect
+from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.columns.table import Table
+from equipoise.io.columns.text_times import FORMATS, with_times_as_numbers
+from equipoise.io.recording.recording_file import read_table
+from equipoise.model.arrays import Series1
+from equipoise.model.errors import InputError
+from equipoise.model.testbed import Testbed
+
+MOSTLY = 0.5  # share of a column's rows that must be numbers for it to be one of numbers (chosen)
+NEXT = {"x": "y", "y": "z", "z": "x"}  # axes in cyclic order
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Imported:
+    """A table and its readings."""
+
+    source: str
+    table: Table
+    known: ColumnMap | None  # what a log, or a header of a known kind, says of the columns
+    ranked: Ranked
+    formats: Mapping[str, str]  # of columns that hold times as text
+
+    @property
+    def by_header(self) -> TableReading | None:
+        """Return the reading that the header means, if the numbers do not speak against it."""
+        known = self.known
+        return next((r for r in self.ranked.alike if known and _agrees(r, known)), None)
+
+    def chosen(self, number: int | None) -> TableReading | None:
+        """Return the reading of a number (from 1), else the one to take; None: it is open."""
+        alike = self.ranked.alike
+        if number is not None:
+            if not 1 <= number <= len(alike):
+                raise InputError("--choose", str(number), f"1 to {len(alike)}, or nothing")
+            return alike[number - 1]
+        return alike[0] if self.ranked.decided else self.by_header
+
+    def map_keys(self, reading: TableReading, up: str) -> dict[str, Any]:
+        """Return a reading as a column map file has it; the platform's axis ``up`` stands."""
+        return _map_keys(reading, up, self.formats)
+
+    def columns(self, reading: TableReading, up: str) -> ColumnMap:
+        """Return a reading as a column map."""
+        if reading is self.by_header and self.known is not None:
+            return self.known  # which knows of masses and devices too
+        keys = self.map_keys(reading, up)
+        return column_map_of(MapFile.model_validate(keys), self.source)
+
+
+def imported(file: str | Path, options: ReadOptions) -> Imported:
+    """Return the readings of a file's table; InputError if it has no number."""
+    table, known = read_table(file, options)
+    if known is not None:
+        return Imported(str(file), table, known, Ranked((), None, decided=False), {})
+    numbers, formats = _numbers(table)
+    if not numbers.names:
+        raise InputError(str(file), "no column of numbers", "a table of a clock and of attitudes")
+    return Imported(str(file), table, _by_header(table, options), ranked(numbers), formats)
+
+
+def _by_header(table: Table, options: ReadOptions) -> ColumnMap | None:
+    """Return what a header of a known kind says of the columns."""
+    try:
+        return detect(table.names, table.source, options.body)
+    except InputError:
+        return None
+
+
+def axis_up(testbed: Testbed | None) -> str:
+    """Return the body axis that points up, or is nearest to it: z unless a testbed says so."""
+    if testbed is None:
+        return "z"
+    main = int(np.argmax(np.abs(testbed.up)))
+    return ("-" if testbed.up[main] < 0 else "") + "xyz"[main]
+
+
+def _agrees(reading: TableReading, known: ColumnMap) -> bool:
+    """Say whether a header means what a reading says."""
+    attitude, gyro = reading.attitude, reading.gyro
+    if known.time[0].names != (reading.clock.column,) or known.inverse != attitude.inverse:
+        return False
+    if gyro is not None and (known.rate is None or known.rate.names != gyro.columns):
+        return False
+    if gyro is not None and gyro.signs != (1, 1, 1):
+        return False
+    if known.quaternion is not None:
+        return known.quaternion.names == attitude.ordered
+    return known.euler is not None and set(known.euler.columns.names) == set(attitude.columns)
+
+
+def _numbers(table: Table) -> tuple[NumberTable, dict[str, str]]:
+    """Return the columns that hold numbers or times, and how times of text are written."""
+    found: dict[str, Series1] = {}
+    formats: dict[str, str] = {}
+    for name in table.names:
+        if not name or table.names.count(name) > 1:
+            continue
+        numbers = table.numbers(name)
+        if len(numbers.garbage) <= (1 - MOSTLY) * len(table):
+            found[name] = numbers.values
+        elif (written := _time_format(table, name)) is not None:
+            formats[name], found[name] = written
+    values = np.stack(list(found.values()), axis=1) if found else np.zeros((len(table), 0))
+    return NumberTable(tuple(found), values, _units(table, tuple(found))), formats
+
+
+def _units(table: Table, names: tuple[str, ...]) -> tuple[str, ...]:
+    units = dict(zip(table.names, table.units, strict=False))
+    return tuple(units.get(name, "") for name in names)
+
+
+def _time_format(table: Table, name: str) -> tuple[str, Series1] | None:
+    """Return how a column writes times as text, and the times (s); None if it does not."""
+    for written in FORMATS:
+        trial = ColumnMap((Columns((name,)),), time_format=written)
+        try:
+            return written, with_times_as_numbers(table, trial).numbers(name).values
+        except InputError:
+            continue
+    return None
+
+
+def _map_keys(reading: TableReading, up: str, formats: Mapping[str, str]) -> dict[str, Any]:
+    body = _body(reading.frame.body_up, up)
+    clock = reading.clock.column
+    written = {"format": formats[clock]} if clock in formats else {"unit": reading.clock.unit}
+    keys: dict[str, Any] = {}
+    if reading.frame.lab_up != "z":
+        keys["lab_up"] = reading.frame.lab_up
+    if body != ["x", "y", "z"]:
+        keys["body"] = body
+    keys["time"] = {"column": clock, **written}
+    keys["attitude"] = _attitude_keys(reading)
+    if reading.gyro is not None:
+        keys["rate"] = _rate_keys(reading, body)
+    return keys
+
+
+def _attitude_keys(reading: TableReading) -> dict[str, Any]:
+    attitude = reading.attitude
+    keys: dict[str, Any] = {"columns": list(attitude.columns)}
+    if attitude.sequence:
+        places = ["XYZ".index(letter) for letter in attitude.sequence]
+        keys["columns"] = [attitude.columns[k] for k in places]
+        keys |= {"unit": "deg" if attitude.degrees else "rad", "sequence": attitude.sequence}
+        if attitude.signs != (1, 1, 1):
+            keys["signs"] = [attitude.signs[k] for k in places]
+        return keys
+    keys["columns"] = list(attitude.ordered)
+    turns = "laboratory to body" if attitude.inverse else "body to laboratory"
+    return keys | {"order": "wxyz", "turns": turns}
+
+
+def _rate_keys(reading: TableReading, body: list[str]) -> dict[str, Any]:
+    """Return the gyro in our axes: those of the attitude, relabelled as it is."""
+    gyro = reading.gyro
+    assert gyro is not None  # the caller has seen it
+    axes = [_signed(axis, gyro.signs["xyz".index(axis[-1])]) for axis in body]
+    keys: dict[str, Any] = {"columns": list(gyro.columns)}
+    if gyro.unit in ("rad/s", "deg/s", "mrad/s", "rpm"):
+        keys["unit"] = gyro.unit
+    else:
+        keys |= {"unit": "rad/s", "factor": float(f"{gyro.factor:.6g}")}
+    return keys if axes == ["x", "y", "z"] else keys | {"axes": axes}
+
+
+def _signed(axis: str, sign: int) -> str:
+    return axis if sign > 0 else axis[1:] if axis.startswith("-") else f"-{axis}"
+
+
+def _body(standing: str, up: str) -> list[str]:
+    """Return our axes in terms of the table's, so that the table's axis that stands is our ``up``.
+
+    The other two follow in cyclic order: the heading of the body's axes is anyone's choice.
+    """
+    if standing == up:
+        return ["x", "y", "z"]
+    sign = -1 if standing.startswith("-") != up.startswith("-") else 1
+    axes = {up[-1]: _signed(standing[-1], sign)}
+    ours, theirs = NEXT[up[-1]], NEXT[standing[-1]]
+    axes[ours] = theirs
+    axes[NEXT[ours]] = _signed(NEXT[theirs], sign)
+    return [axes[letter] for letter in "xyz"]
