@@ -5,7 +5,7 @@ from typing import Literal
 
 from equipoise.model.reasons.reason import Coded, Reason
 
-Kind = Literal["content", "motion", "problem", "mended"]
+Kind = Literal["content", "motion", "problem", "wrong", "mended"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,7 +13,8 @@ class Finding(Coded):
     """What was found, the main thing first, and when it holds.
 
     ``content`` is what was recorded, ``motion`` what the platform did, ``problem`` what an
-    estimate will suffer from, ``mended`` what reading the file set right.
+    estimate will suffer from, ``wrong`` what no estimate can stand, with what mends it, ``mended``
+    what reading the file set right.
     """
 
     kind: Kind

@@ -8,7 +8,6 @@ import pytest
 from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.record_findings import findings
 from equipoise.assessment.record_checks.attitude_noise import attitude_noise
-from equipoise.assessment.record_checks.gyro_consistency import correlation, rate_pairs
 from equipoise.assessment.record_checks.rate_quality import rate_noise, step_of
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply
@@ -42,7 +41,8 @@ def recorded(gyro=lambda w: w, noise: float = 1e-3) -> Recording:
 
 def said(recording: Recording, kind: str = "problem", testbed: Testbed | None = None) -> str:
     """Return all sentences of a kind."""
-    return " ".join(f.sentence for f in findings(recording, testbed) if f.kind == kind)
+    kinds = {kind, "wrong"} if kind == "problem" else {kind}
+    return " ".join(f.sentence for f in findings(recording, testbed) if f.kind in kinds)
 
 
 def test_a_sound_record_has_no_problem() -> None:
@@ -54,10 +54,11 @@ def test_a_sound_record_has_no_problem() -> None:
 @pytest.mark.parametrize(
     ("gyro", "sentence"),
     [
-        (lambda w: w * [-1, 1, 1], "gyro x has the opposite sign"),
-        (lambda w: w[:, [1, 0, 2]], "gyro x follows attitude y"),
-        (lambda w: w[:, [0, 2, 1]] * [1, -1, 1], "gyro y follows minus attitude z"),
-        (lambda w: np.degrees(w), "gyro z is 57."),
+        (lambda w: w * [-1, 1, 1], 'axes = ["-x", "y", "z"]'),
+        (lambda w: w[:, [1, 0, 2]], 'axes = ["y", "x", "z"]'),
+        (lambda w: w[:, [0, 2, 1]] * [1, -1, 1], 'axes = ["x", "z", "-y"]'),
+        (lambda w: np.degrees(w), "the gyro is 57.3 times what the attitude shows"),
+        (lambda w: w * [1, 1, 1.3], "gyro z is 1.3 times what the attitude shows"),
         (lambda w: np.round(w / 0.01) * 0.01, "gyro x comes in steps of 0.573 deg/s"),
         (lambda w: w * [1, 0, 1], "gyro y is 0 deg/s in every row"),
     ],
@@ -81,15 +82,6 @@ def test_differences_of_the_attitude_are_no_second_sensor() -> None:
     late = np.vstack([np.zeros(3), rate[:-1]])
     recording = Recording(attitude=Samples(T, q), rate=Samples(T, late))
     assert "rates start at exactly zero" in said(recording)
-
-
-def test_the_correlation_of_axes_is_near_one_on_the_diagonal() -> None:
-    """The comparison itself, without the sentences."""
-    recording = recorded()
-    assert recording.attitude is not None
-    assert recording.rate is not None
-    observed, response = rate_pairs(recording.attitude, recording.rate)
-    assert np.all(np.diag(correlation(response, observed)) > 0.95)
 
 
 @pytest.mark.parametrize("noise", [1e-4, 1e-3, 1e-2])

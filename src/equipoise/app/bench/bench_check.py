@@ -112,7 +112,7 @@ def frame_results(keeper: Keeper, recording: Recording) -> Iterator[CheckResult]
         wrong = "; is alignment or laboratory wrong in [[hardware.sensor]]?"
         yield CheckResult(leaning < UPSIDE, text + ("" if leaning < UPSIDE else wrong))
     for finding in findings(recording, testbed):
-        if finding.kind == "problem":
+        if finding.kind in ("problem", "wrong"):
             arrival = finding.code is FindingReason.UNEVEN_INTERVALS and not stamped
             yield CheckResult(arrival, finding.sentence + (ARRIVAL if arrival else ""))
 

@@ -14,6 +14,7 @@ TONES: dict[str, Tone] = {
     "content": "plain",
     "motion": "plain",
     "problem": "caution",  # an estimate will suffer from it
+    "wrong": "bad",  # nothing is fitted
     "mended": "quiet",  # it was set right
 }
 

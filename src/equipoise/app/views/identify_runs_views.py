@@ -63,7 +63,7 @@ def problem_items(done: JointIdentification) -> Blocks:
         Item(f"{run.name}: {finding.sentence}", TONES[finding.kind])
         for run in done.runs
         for finding in run.findings
-        if finding.kind == "problem"
+        if finding.kind in ("problem", "wrong")
     )
     return (Items(found),) if found else ()
 

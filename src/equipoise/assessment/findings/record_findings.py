@@ -4,11 +4,11 @@ from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.mass_moves import move_findings
 from equipoise.assessment.findings.motion_range import motion_findings
 from equipoise.assessment.findings.stop_findings import stop_findings
+from equipoise.assessment.plausibility.rotation import rotation_findings
 from equipoise.assessment.record_checks.attitude_noise import noise_findings
 from equipoise.assessment.record_checks.clock_offset import offset_findings
 from equipoise.assessment.record_checks.exposure_averaging import averaging_findings
 from equipoise.assessment.record_checks.flagged_rows import odd_row_findings
-from equipoise.assessment.record_checks.gyro_consistency import agreement_findings
 from equipoise.assessment.record_checks.mass_flicker import flicker_findings
 from equipoise.assessment.record_checks.rate_quality import rate_findings
 from equipoise.assessment.record_checks.sensor_noise import unstated_findings
@@ -39,7 +39,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *averaging_findings(recording, sensors[0]),
         *odd_row_findings(recording),
         *rate_findings(recording.rate),
-        *agreement_findings(recording.attitude, recording.rate),
+        *rotation_findings(recording.attitude, recording.rate),
         *offset_findings(recording.attitude, recording.rate, *sensors),
         *unstated_findings(recording, testbed),
         *(Finding("mended", (reason,)) for reason in (testbed.mended if testbed else ())),

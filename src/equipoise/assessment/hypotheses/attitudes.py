@@ -13,7 +13,7 @@ import numpy as np
 
 from equipoise.assessment.hypotheses.number_table import NumberTable, varies, words_of
 from equipoise.maths.attitude import conjugate, exponential, multiply, normalise
-from equipoise.model.arrays import Floats, Series4
+from equipoise.model.arrays import Floats, Series1, Series4
 from equipoise.model.units import DEG
 
 UNIT = 0.02  # by which a length may miss one (chosen)
@@ -142,8 +142,8 @@ def _is_unit(table: NumberTable, columns: tuple[str, ...]) -> bool:
     if full.sum() < 3:
         return False
     kept: Floats = values[full]
-    length = np.linalg.norm(kept, axis=1)
-    return _moves(kept) and float(np.mean(np.abs(length - 1) < UNIT)) > 0.9
+    misses: Series1 = np.abs(np.linalg.norm(kept, axis=1) - 1)
+    return _moves(kept) and float(np.quantile(misses, 0.9)) < UNIT
 
 
 def _moves(values: Floats) -> bool:

@@ -15,7 +15,7 @@ import numpy as np
 
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
 from equipoise.maths.attitude import difference
-from equipoise.model.arrays import Floats, Ints, Series, Series1, Series3, Series4
+from equipoise.model.arrays import Floats, Ints, Series1, Series3, Series4
 from equipoise.model.units import DEG, MILLI, RPM
 
 SPAN = 0.2  # s, over which turns are taken at most (chosen: a swing takes longer)
@@ -43,7 +43,7 @@ class Spans:
     duration: Series1  # s
     means: dict[str, Series1]
 
-    def turns(self, q: Series4) -> Series3:
+    def turns(self, q: Series4) -> Floats:
         """Return the sums of turns up to the end of each span, rad, body axes, nothing straight."""
         return self._bent(difference(q[self.starts + self.lag], q[self.starts]))
 
@@ -51,7 +51,7 @@ class Spans:
         """Return the integrals of the columns up to the end of each span, nothing straight."""
         return {name: self._bent(mean * self.duration) for name, mean in self.means.items()}
 
-    def _bent(self, steps: Series) -> Series:
+    def _bent(self, steps: Floats) -> Floats:
         """Return sums of steps without their straight line in time."""
         t = np.cumsum(self.duration)
         straight = np.linalg.qr(np.stack([np.ones_like(t), t - t.mean()], axis=1))[0]
@@ -77,15 +77,20 @@ def spans_of(t: Series1, q: Series4, table: NumberTable, names: list[str]) -> Sp
 
     They are long, so that the noise of attitudes does little, and turns over them small.
     """
-    step = float(np.median(np.linalg.norm(difference(q[1:], q[:-1]), axis=1)))
-    most = (SPAN / float(np.median(np.diff(t))), SMALL / max(step, 1e-12), len(t) / FEWEST)
-    lag = max(1, int(min(most)))
-    starts = np.arange(0, len(t) - lag, lag)
+    starts, lag = span_rows(t, q)
     duration = t[starts + lag] - t[starts]
     even = (duration > 0) & (duration < 2 * np.median(duration))
     starts, duration = starts[even], duration[even]
     means = {name: _means(t, table.column(name), starts, lag) for name in names}
     return Spans(starts, lag, duration, {n: m for n, m in means.items() if _moves(m)})
+
+
+def span_rows(t: Series1, q: Series4) -> tuple[Ints, int]:
+    """Return the rows in which spans between attitudes begin, and how many rows they are long."""
+    step = float(np.median(np.linalg.norm(difference(q[1:], q[:-1]), axis=1)))
+    most = (SPAN / float(np.median(np.diff(t))), SMALL / max(step, 1e-12), len(t) / FEWEST)
+    lag = max(1, int(min(most)))
+    return np.arange(0, len(t) - lag, lag), lag
 
 
 def gyro_guesses(turns: Series3, columns: dict[str, Series1]) -> list[GyroGuess]:

@@ -139,17 +139,20 @@ class FindingReason(Code):
         "rates_derived",
         "the rates are differences of the attitude to the last digit: not a second sensor.",
     )
-    OPPOSITE_SIGN = (
-        "opposite_sign",
-        "gyro {0} has the opposite sign (correlation {correlation:.2f}).",
+    ATTITUDE_INVERSE = (
+        "attitude_inverse",
+        "the gyro shows the attitude's turning the other way: the attitude turns laboratory into "
+        "body components.",
     )
-    OTHER_AXIS = (
-        "other_axis",
-        "gyro {0} follows attitude {1} (correlation {correlation:.2f}).",
-    )
-    OTHER_AXIS_REVERSED = (
-        "other_axis_reversed",
-        "gyro {0} follows minus attitude {1} (correlation {correlation:.2f}).",
+    READ_INVERSE = "read_inverse", 'In a column map, attitude: turns = "laboratory to body".'
+    GYRO_AXES = "gyro_axes", "the body's x, y, z turn as the gyro's {names} do."
+    READ_AXES = "read_axes", "In a column map, rate: axes = [{names}]."
+    OTHER_UNIT = "other_unit", "the gyro is {scale:.3g} times what the attitude shows."
+    READ_UNIT = "read_unit", "In a column map, rate: its unit, or a factor."
+    NO_RELATION = (
+        "no_relation",
+        "no order, sign or direction of axes makes the gyro show the attitude's turning: "
+        "{unexplained:% .0f} % of it is left.",
     )
     OTHER_SCALE = "other_scale", "gyro {0} is {scale:.3g} times what the attitude shows."
     SENSORS_AGREE = "sensors_agree", "gyro and attitude agree about {names}."

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from equipoise.app.figures.base.style import GREY, ORANGE
 from equipoise.model.finding import Finding
 
-ODD = {"problem": ORANGE, "motion": GREY, "content": GREY, "mended": GREY}
-SIGNS = {"problem": "!", "mended": "~", "content": "", "motion": ""}
+ODD = {"wrong": ORANGE, "problem": ORANGE, "motion": GREY, "content": GREY, "mended": GREY}
+SIGNS = {"wrong": "!", "problem": "!", "mended": "~", "content": "", "motion": ""}
 WHOLE = 0.9  # of the record: a finding that holds that long is not marked (chosen)
 LEAST = 0.002  # of the record: a shade is at least that wide, to be visible (chosen)
 SHELVES = 3  # rows of numbers above the panels, where they would cover each other
@@ -66,7 +66,9 @@ def number(axes: Axes, marked: Sequence[Finding], span: tuple[float, float]) -> 
 def listed(found: Sequence[Finding], marked: Sequence[Finding]) -> list[tuple[str, str, str]]:
     """Return lines of sign, number and text, wrapped: those with a number first."""
     rest = [finding for finding in found if finding not in marked]
-    order = sorted(rest, key=lambda f: ("problem", "motion", "content", "mended").index(f.kind))
+    order = sorted(
+        rest, key=lambda f: ("wrong", "problem", "motion", "content", "mended").index(f.kind)
+    )
     lines: list[tuple[str, str, str]] = []
     for k, finding in enumerate([*marked, *order], start=1):
         sign, head = SIGNS[finding.kind], str(k) if k <= len(marked) else ""
