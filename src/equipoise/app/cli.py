@@ -44,11 +44,12 @@ from equipoise.app.commands.track import track
 from equipoise.app.console.lasting_output import lasting
 from equipoise.app.console.stop_request import cause_of, exit_code_of, leave_to_system, stoppable
 from equipoise.app.console.terminal import complain
-from equipoise.model.errors import EquipoiseError
+from equipoise.model.errors import EquipoiseError, Implausible
 from equipoise.model.version import __version__
 
 WRONG_USE = 2
 BY_HAND = 130  # what shells give a program that Ctrl-C ended; other signals: 128 and their number
+NOT_USABLE = 1  # an outcome, not a wrong use
 LEFT_ALONE = 1  # as rich ends a program whose output nobody reads any more
 
 app = App(
@@ -81,6 +82,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         return app(arguments, exit_on_error=False, print_error=False) or 0
     except CycloptsError as error:
         complain(f"{error} (equipoise --help lists what there is)")
+    except Implausible as error:
+        complain(str(error))
+        return NOT_USABLE
     except EquipoiseError as error:
         complain(str(error))
     except BrokenPipeError:

@@ -73,6 +73,18 @@ class BenchStopped(EquipoiseError):
         self.cause = cause
 
 
+class Implausible(EquipoiseError):
+    """A record or a testbed that cannot be what it says it is; nothing was fitted.
+
+    ``reasons`` say it for programs, each with what mends it.
+    """
+
+    def __init__(self, source: str, reasons: Sequence[Reason]) -> None:
+        said = " ".join(reason.sentence for reason in reasons)
+        super().__init__(f"{source}: nothing was fitted: {said} --force fits it all the same.")
+        self.reasons = tuple(reasons)
+
+
 def nearest(name: str, known: Sequence[str]) -> str:
     """Say which known name is meant, or list them: the tail of a 'wanted' text."""
     close = get_close_matches(name, known, n=1)

@@ -9,6 +9,7 @@ from equipoise.app.arguments.options import BUDGET_S
 from equipoise.app.runs import identification, joint_identification
 from equipoise.app.runs.identification import Identification
 from equipoise.app.runs.joint_identification import JointIdentification
+from equipoise.app.runs.plausible_record import Gate
 from equipoise.app.runs.waiting import passing_on
 from equipoise.model.errors import InputError
 from equipoise.model.step import Step
@@ -27,6 +28,7 @@ def identify(
     hold: Sequence[str] = (),
     use_prior: bool = False,
     robust: bool = False,
+    force: bool = False,
     budget_s: float = BUDGET_S,
     plan: inputs.AnyPlan | None = None,
     on_step: Callable[[Step], None] | None = None,
@@ -43,6 +45,7 @@ def identify(
     hold: Sequence[str] = (),
     use_prior: bool = False,
     robust: bool = False,
+    force: bool = False,
     budget_s: float = BUDGET_S,
     plan: None = None,
     on_step: Callable[[Step], None] | None = None,
@@ -58,6 +61,7 @@ def identify(
     hold: Sequence[str] = (),
     use_prior: bool = False,
     robust: bool = False,
+    force: bool = False,
     budget_s: float = BUDGET_S,
     plan: inputs.AnyPlan | None = None,
     on_step: Callable[[Step], None] | None = None,
@@ -85,6 +89,8 @@ def identify(
         Use the testbed's inertia and centre of mass with their sd; this fixes an open scale.
     robust
         Give outliers less weight.
+    force
+        Fit a record that cannot be what it says it is, such as one with a gyro in another unit.
     budget_s
         Processor time that a search may take, s; it ends then with the best that it has found.
     plan
@@ -96,6 +102,8 @@ def identify(
     ------
     InputError
         For files that cannot be read, unknown names, and a recording that does not fit the testbed.
+    Implausible
+        For a record that no estimate can stand, with what mends it; not if ``force`` is set.
     """
     bed = inputs.testbed_from(testbed)
     requested = inputs.options_from(terms, hold, use_prior, robust)
@@ -106,7 +114,7 @@ def identify(
         if plan is not None:
             raise InputError("plan", "several recordings", "the one that was made by the plan")
         several = [inputs.recording_from(each, bed) for each in recording]
-        return joint_identification.run(several, bed, options, passing_on(on_step))
+        return joint_identification.run(several, bed, options, passing_on(on_step), Gate(force))
     rows = inputs.recording_from(recording, bed)
-    done = identification.run(rows, bed, options, passing_on(on_step))
+    done = identification.run(rows, bed, options, passing_on(on_step), Gate(force))
     return replace(done, plan=planned)

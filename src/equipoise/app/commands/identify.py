@@ -34,6 +34,7 @@ def identify(
     testbed: str,
     method: str = "auto",
     robust: Flag = False,
+    force: Flag = False,
     plan: Path | None = None,
     seeking: Seeking = NOTHING_STATED,
     searching: Searching = USUAL,
@@ -47,7 +48,7 @@ def identify(
     starts, biases and moves each one's own. A verdict says whether the runs agree.
 
     Ends with 1 when the estimate is not usable, or the runs do not agree; the sentences under the
-    tables say why.
+    tables say why. So it does, without a fit, for a record that cannot be what it says it is.
 
     Parameters
     ----------
@@ -61,6 +62,8 @@ def identify(
         auto, or one of those that `equipoise methods` lists; several recordings: trajectory.
     robust
         Give outliers less weight.
+    force
+        Fit a record that cannot be what it says it is, such as one with a gyro in another unit.
     plan
         Plan file that the recording was made by: what it predicted is compared with what is found.
         Of one recording.
@@ -90,8 +93,8 @@ def identify(
     budget = budget_at_terminal(searching)
     options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust, budget)
     if more:
-        return _jointly(recordings, bed, options, json=json, out=out)
-    return _from_one(recordings[0], bed, options, planned, json=json, out=out)
+        return _jointly(recordings, bed, options, force=force, json=json, out=out)
+    return _from_one(recordings[0], bed, options, planned, force=force, json=json, out=out)
 
 
 def _from_one(
@@ -100,6 +103,7 @@ def _from_one(
     options: "IdentifyOptions",
     planned: "Plan | None",
     *,
+    force: bool,
     json: bool,
     out: Path | None,
 ) -> int:
@@ -108,6 +112,7 @@ def _from_one(
         from equipoise.app.console.rich_blocks import show
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.identification import run
+        from equipoise.app.runs.plausible_record import Gate
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.text.run_blocks import finding_items
         from equipoise.app.views.identify_views import output_of
@@ -116,7 +121,8 @@ def _from_one(
         if not json:
             show(finding_items(found))
 
-    done = replace(run(recording, bed, options, AT_TERMINAL, on_findings), plan=planned)
+    done = run(recording, bed, options, AT_TERMINAL, Gate(force, on_findings))
+    done = replace(done, plan=planned)
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.estimate.outcome.usable else 1
 
@@ -126,6 +132,7 @@ def _jointly(
     bed: "Testbed",
     options: "IdentifyOptions",
     *,
+    force: bool,
     json: bool,
     out: Path | None,
 ) -> int:
@@ -133,9 +140,10 @@ def _jointly(
     with busy("identifying", announce=False):
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.joint_identification import run
+        from equipoise.app.runs.plausible_record import Gate
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.views.identify_runs_views import output_of
 
-    done = run(recordings, bed, options, AT_TERMINAL)
+    done = run(recordings, bed, options, AT_TERMINAL, Gate(force))
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.estimate.outcome.usable and done.verdict.passed else 1

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import WHOLE, Reading, Whole
-from equipoise.app.console.terminal import busy, show_paths
+from equipoise.app.console.terminal import announced, busy, show_paths
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def import_(
         format_to_write(out)
     for path in filter(None, (out, write_map)):
         check_writable(path)
-    bed = None if testbed is None else testbed_from(testbed)
+    bed = None if testbed is None else announced(testbed_from(testbed))
     options = read_options(reading, "--")
     with busy("comparing readings", announce=False):
         found = imported(file, options)

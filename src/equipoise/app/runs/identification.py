@@ -1,11 +1,11 @@
 """One identification: what a recording holds, the steps of the procedure, the estimate."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from equipoise.app.runs.plausible_record import CLOSED, Gate
 from equipoise.app.runs.waiting import QUIET, Waiting
 from equipoise.assessment.findings.event_findings import event_findings
-from equipoise.assessment.findings.record_findings import findings
 from equipoise.model.estimate import Estimate
 from equipoise.model.finding import Finding
 from equipoise.model.manoeuvre import Plan
@@ -47,18 +47,16 @@ def run(
     testbed: Testbed,
     options: IdentifyOptions,
     waiting: Waiting = QUIET,
-    on_findings: Callable[[Sequence[Finding]], None] | None = None,
+    gate: Gate = CLOSED,
 ) -> Identification:
-    """Identify from a recording that fits the testbed; findings are passed on as they are made.
+    """Identify from a recording that fits the testbed; ``gate`` passes findings on.
 
-    Raises InputError for a method or a held parameter that does not exist.
+    Raises InputError for a method or a held parameter that does not exist, Implausible for a record
+    that no estimate can stand, unless it is forced.
     """
-    found = list(findings(recording, testbed))
-    if on_findings is not None:
-        on_findings(found)
+    found = gate.findings(recording, testbed)
     steps = list(waiting.steps(identify(recording, testbed, options), "identifying"))
     last = steps[-1].estimate
     happened = [] if last is None else event_findings(last)
-    if on_findings is not None:
-        on_findings(happened)
+    gate.say(happened)
     return Identification(testbed, recording, [*found, *happened], steps)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.app.runs.plausible_record import CLOSED, Gate
 from equipoise.app.runs.waiting import QUIET, Waiting
-from equipoise.assessment.findings.record_findings import findings
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
@@ -72,27 +72,30 @@ def run(
     testbed: Testbed,
     options: IdentifyOptions,
     waiting: Waiting = QUIET,
+    gate: Gate = CLOSED,
 ) -> JointIdentification:
     """Identify from recordings that fit the testbed.
 
     Raises InputError for fewer than two of them, one that is given twice, and another method than
-    the trajectory fit.
+    the trajectory fit; Implausible for one that no estimate can stand, unless it is forced.
     """
     if len(recordings) < FEWEST:
         raise InputError("recordings", f"{len(recordings)}", "two or more for a joint fit")
+    held = [gate.findings(each, testbed) for each in recordings]
     ended = list[JointEstimate]()
 
     def steps() -> Iterator[Step]:
         ended.append((yield from identify_runs(recordings, testbed, options)))
 
     done = list(waiting.steps(steps(), f"identifying {len(recordings)} recordings"))
-    return JointIdentification(
-        testbed, runs_of(recordings, testbed, done, ended[0]), done, ended[0]
-    )
+    return JointIdentification(testbed, runs_of(recordings, held, done, ended[0]), done, ended[0])
 
 
 def runs_of(
-    recordings: Sequence[Recording], testbed: Testbed, steps: Sequence[Step], joint: JointEstimate
+    recordings: Sequence[Recording],
+    held: Sequence[Sequence[Finding]],
+    steps: Sequence[Step],
+    joint: JointEstimate,
 ) -> list[IdentifiedRun]:
     """Return each run with what is known of it."""
     known = iter(() if joint.scatter is None else joint.scatter.deviations)
@@ -101,6 +104,5 @@ def runs_of(
         estimate, used = steps[k].estimate, joint.used[k]
         assert estimate is not None
         deviation = next(known, None) if used else None
-        held = list(findings(recording, testbed))
-        found.append(IdentifiedRun(name, recording, held, estimate, used, deviation))
+        found.append(IdentifiedRun(name, recording, held[k], estimate, used, deviation))
     return found

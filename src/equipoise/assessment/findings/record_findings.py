@@ -4,7 +4,10 @@ from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.mass_moves import move_findings
 from equipoise.assessment.findings.motion_range import motion_findings
 from equipoise.assessment.findings.stop_findings import stop_findings
+from equipoise.assessment.plausibility.body import body_findings
+from equipoise.assessment.plausibility.gyro_range import saturation_findings
 from equipoise.assessment.plausibility.rotation import rotation_findings
+from equipoise.assessment.plausibility.sampling import sampling_findings
 from equipoise.assessment.record_checks.attitude_noise import noise_findings
 from equipoise.assessment.record_checks.clock_offset import offset_findings
 from equipoise.assessment.record_checks.exposure_averaging import averaging_findings
@@ -39,6 +42,9 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *averaging_findings(recording, sensors[0]),
         *odd_row_findings(recording),
         *rate_findings(recording.rate),
+        *sampling_findings(recording.attitude, recording.rate),
+        *saturation_findings(recording.rate),
+        *body_findings(testbed),
         *rotation_findings(recording.attitude, recording.rate),
         *offset_findings(recording.attitude, recording.rate, *sensors),
         *unstated_findings(recording, testbed),

@@ -174,6 +174,35 @@ class FindingReason(Code):
         "testbed it would be {stated:ms .3g} ms.",
     )
 
+    # Whether it can be
+    IMPOSSIBLE_RATE = (
+        "impossible_rate",
+        "{0}: a row each {period:.3g} s, which no sensor of a platform has. Is the clock in "
+        "another unit?",
+    )
+    READ_CLOCK = "read_clock", "In a column map, time: its unit (ms, us, ns)."
+    TOO_SLOW = (
+        "too_slow",
+        "the platform turns by {turn:deg .3g} deg from attitude to attitude, {interval:.3g} s: too "
+        "slow for its motion.",
+    )
+    SATURATED = (
+        "saturated",
+        "gyro {0} stays at its greatest value, {rate:deg .4g} deg/s, in {count:.0f} rows: the end "
+        "of its range.",
+    )
+    NO_BODY = (
+        "no_body",
+        "the testbed's inertia does not fit its mass of {mass:.3g} kg: that would lie "
+        "{radius:.2g} m from the pivot (root mean square). Is a unit of platform.inertia_kg_m2 or "
+        "platform.mass_kg wrong?",
+    )
+    COM_ABOVE = (
+        "com_above",
+        "the testbed's centre of mass is {height:um .3g} um above the pivot: such a platform "
+        "falls over.",
+    )
+
     # Events
     EVENTS_NOT_SOUGHT = (
         "events_not_sought",
