@@ -1,8 +1,9 @@
 """Whether gyro and attitude show the same rotation: direction, axes, signs, scale, zero.
 
-Sums of turns from attitude to attitude are compared with integrals of the gyro, at the delay that
-both show (``hypotheses.gyros``). As it is read the gyro competes with every order and sign of its
-axes, and with the attitude turned the other way. What is much better is what is the matter.
+Sums of turns from attitude to attitude are compared with integrals of the gyro
+(``hypotheses.gyros``). As it is read the gyro competes with every order and sign of its axes, and
+with the attitude turned the other way. What is much better is what is the matter, unless a delay
+explains as much: in a steady precession a quarter of a period looks like other axes.
 """
 
 from dataclasses import dataclass
@@ -28,6 +29,7 @@ from equipoise.model.units import DEG
 
 NAMES = ("x", "y", "z")
 RELATED = 0.5  # misfit up to which a gyro shows the attitude's turning (chosen)
+CLEAR = 0.05  # misfit up to which another reading is believed (chosen)
 BETTER = 4.0  # times the least misfit, from which what is read is wrong (chosen)
 SURE = 100.0  # and by how much chi squared must differ (chosen: it counts systematic errors too)
 OFF = 0.2  # of the scale, before it is reported (chosen: no gyro's scale is this wrong)
@@ -75,12 +77,12 @@ class _Compared:
         """Say whether another reading explains much more than the one that is taken."""
         least = max(self.best.misfit, 1e-9)
         excess = (self.as_read / least - 1.0) * 3 * len(self.turns)
-        return self.as_read > BETTER * least and excess > SURE
+        return least < CLEAR and self.as_read > BETTER * least and excess > SURE
 
     def wrong(self) -> Finding | None:
         """Return what is wrong and what mends it; None if nothing is."""
-        if self.best.misfit > RELATED:
-            return Finding("problem", one_reason(Why.NO_RELATION, unexplained=self.best.misfit))
+        if self.as_read > RELATED and self.best.misfit > CLEAR:
+            return Finding("problem", one_reason(Why.NO_RELATION, unexplained=self.as_read))
         if not self.is_worse():
             return self._other_unit()
         found: list[Reason] = []
@@ -127,9 +129,19 @@ class _Compared:
 
 
 def _compared(attitude: Samples, rate: Samples) -> _Compared | None:
-    """Return the comparison at the delay that both show; None if nothing moves."""
+    """Return the comparison, at the delay that both show if that explains more; None if none can.
+
+    Without a delay another reading may explain as much, and is the likelier.
+    """
+    prompt = _at_delay(attitude, rate, 0.0)
     offset = clock_offset(attitude, rate)
-    late = 0.0 if offset is None else offset.lag
+    if prompt is None or offset is None:
+        return prompt
+    late = _at_delay(attitude, rate, offset.lag)
+    return late if late is not None and late.as_read < prompt.best.misfit else prompt
+
+
+def _at_delay(attitude: Samples, rate: Samples, late: float) -> _Compared | None:
     spans = _spans(attitude, Samples(rate.t + late, rate.values))
     if spans is None:
         return None

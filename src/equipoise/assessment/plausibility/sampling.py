@@ -1,7 +1,7 @@
 """Whether rows come at rates that sensors have, and fast enough for the motion.
 
 A turn of half a revolution between two attitudes looks like one the other way round, so
-attitudes must come well before that.
+attitudes must come well before that. A gyro beside them shows how it was.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 
 FASTEST, SLOWEST = 2e-5, 5.0  # s between rows; chosen: no sensor of a platform is outside
-COARSE, ALIASED = np.radians(45.0), np.radians(120.0)  # turn from row to row (chosen)
+COARSE, ALIASED = np.radians(90.0), np.radians(170.0)  # turn from row to row (chosen)
 FEWEST = 5  # rows (chosen)
 
 
@@ -21,7 +21,7 @@ def sampling_findings(attitude: Samples | None, rate: Samples | None) -> list[Fi
     """Return a clock that no sensor has, and attitudes too rare for the motion."""
     named = (("attitude", attitude), ("rate", rate))
     found = [f for name, channel in named for f in _clock(name, channel)]
-    return found or _turns(attitude)
+    return found or ([] if rate is not None else _turns(attitude))
 
 
 def _clock(name: str, channel: Samples | None) -> list[Finding]:
