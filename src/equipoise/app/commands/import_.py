@@ -72,8 +72,9 @@ class Written:
 def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written: Written) -> int:
     """Show the readings, and read the table by the one that is taken."""
     from equipoise.app.console.rich_blocks import show
-    from equipoise.app.runs.importing import axis_up
+    from equipoise.app.runs.importing import axis_up, map_to_start_from
     from equipoise.app.views.import_views import import_blocks
+    from equipoise.io.files.atomic_file import write_whole
     from equipoise.io.recording.frame_check import check_frame
     from equipoise.io.recording.recording_file import recording_from
 
@@ -81,6 +82,9 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written:
     header = found.known is not None and not found.ranked.alike
     if chosen is None and not header:
         show(import_blocks(found.ranked, None, ()))
+        if written.column_map is not None and not found.ranked.alike:
+            write_whole(written.column_map, map_to_start_from(found.table.names))
+            show_paths([written.column_map])
         return 1
     columns = found.known if chosen is None else found.columns(chosen, axis_up(bed))
     assert columns is not None  # one of the two is there

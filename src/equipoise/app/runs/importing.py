@@ -1,6 +1,6 @@
 """Which reading of an unknown table its numbers support, as a column map that reads it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -70,6 +70,19 @@ def imported(file: str | Path, options: ReadOptions) -> Imported:
     if not numbers.names:
         raise InputError(str(file), "no column of numbers", "a table of a clock and of attitudes")
     return Imported(str(file), table, _by_header(table, options), ranked(numbers), formats)
+
+
+def map_to_start_from(names: Sequence[str]) -> str:
+    """Return a column map in which a person fills in what no number showed."""
+    listed = ", ".join(f"'{name}'" for name in names if name)
+    return (
+        f"# The columns of the table: {listed}\n"
+        "# Put their names for the question marks; leave out what is not there.\n\n"
+        '[time]\ncolumn = "?"\nunit = "s"\n\n'
+        '[attitude]\ncolumns = ["?", "?", "?", "?"]\norder = "wxyz"\n'
+        'turns = "body to laboratory"\n\n'
+        '[rate]\ncolumns = ["?", "?", "?"]\nunit = "rad/s"\n'
+    )
 
 
 def _by_header(table: Table, options: ReadOptions) -> ColumnMap | None:

@@ -38,7 +38,10 @@ def import_blocks(
 
 def _undecided(ranked: Ranked) -> str:
     if not ranked.alike:
-        return "No clock with four columns of a quaternion, or three named angles, was found."
+        return (
+            "No clock with four columns of a quaternion, or three named angles, was found. "
+            "--write-map writes a column map to start from, for you to fill in."
+        )
     count = len(ranked.alike)
     return f"The numbers leave {count} readings alike: choose one, --choose 1 to {count}."
 

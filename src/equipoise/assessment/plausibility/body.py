@@ -2,9 +2,9 @@
 
     k = sqrt(tr J / 2 m)          root mean square distance of the mass from the pivot
 
-A platform of a bearing is some centimetres to metres large, and as dense as machines are: m / k^3 is
-between that of a wide frame and that of lead. Inertias in kg cm^2 or g m^2, or a mass in g, put it
-off by many powers of ten.
+A platform of a bearing is some centimetres to metres large, and as dense as machines are: m / k^3
+is between that of a wide frame and that of lead. Inertias in kg cm^2 or g m^2, or a mass in g, put
+it off by many powers of ten.
 """
 
 import numpy as np

@@ -47,7 +47,10 @@ def detect(names: Names, source: str, body: str | None = None) -> ColumnMap:
         if dialect.marks(names):
             return dialect.columns(names, source, body)
     shown = ", ".join(filter(None, names[:8]))
-    wanted = f"columns of a known dialect ({', '.join(DIALECTS)}), or a column map (--columns)"
+    wanted = (
+        f"columns of a known dialect ({', '.join(DIALECTS)}), or a column map (--columns); "
+        f"`equipoise import {source} --write-map map.toml` makes one"
+    )
     raise InputError(f"{source}, header", f"columns {shown}", wanted)
 
 
