@@ -8,6 +8,7 @@ from equipoise.model.errors import Implausible
 from equipoise.model.finding import Finding
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+from equipoise.procedure.identification.attitude_direction import direction_findings
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +28,7 @@ class Gate:
 
         Raises Implausible for what no estimate can stand, unless it is forced.
         """
-        found = list(findings(recording, testbed))
+        found = [*findings(recording, testbed), *direction_findings(recording, testbed)]
         self.say(found)
         wrong = [reason for each in found if each.kind == "wrong" for reason in each.reasons]
         if wrong and not self.force:

@@ -144,6 +144,11 @@ class FindingReason(Code):
         "the gyro shows the attitude's turning the other way: the attitude turns laboratory into "
         "body components.",
     )
+    ATTITUDE_REVERSED = (
+        "attitude_reversed",
+        "the motion is that of a platform if the attitude turns laboratory into body components "
+        "(chi squared is less by {excess:.3g}), not as it is read.",
+    )
     READ_INVERSE = "read_inverse", 'In a column map, attitude: turns = "laboratory to body".'
     GYRO_AXES = "gyro_axes", "the body's x, y, z turn as the gyro's {names} do."
     READ_AXES = "read_axes", "In a column map, rate: axes = [{names}]."
