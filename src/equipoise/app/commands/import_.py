@@ -72,13 +72,17 @@ class Written:
 def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written: Written) -> int:
     """Show the readings, and read the table by the one that is taken."""
     from equipoise.app.console.rich_blocks import show
-    from equipoise.app.runs.importing import axis_up, map_to_start_from
+    from equipoise.app.runs.importing import axis_up, by_motion, map_to_start_from
     from equipoise.app.views.import_views import import_blocks
     from equipoise.io.files.atomic_file import write_whole
     from equipoise.io.recording.frame_check import check_frame
     from equipoise.io.recording.recording_file import recording_from
 
     chosen = found.chosen(choose)
+    moved = chosen is None and bed is not None
+    if moved and bed is not None:
+        with busy("comparing motions", announce=False):
+            chosen = by_motion(found, bed, written.bad_rows)
     header = found.known is not None and not found.ranked.alike
     if chosen is None and not header:
         show(import_blocks(found.ranked, None, ()))
@@ -89,7 +93,8 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written:
     columns = found.known if chosen is None else found.columns(chosen, axis_up(bed))
     assert columns is not None  # one of the two is there
     recording = recording_from(found.table, columns, written.bad_rows)
-    notes = (*recording.notes, *recording.gaps)
+    by_fit = ("motion: a platform's is explained by this direction of the attitude alone.",) * moved
+    notes = (*by_fit, *recording.notes, *recording.gaps)
     show(import_blocks(found.ranked, chosen, notes, header))
     if bed is not None:
         check_frame(recording, bed)
@@ -115,4 +120,5 @@ def _write(
         raise InputError("--write-map", found_as, "no map: none is needed")
     if written.out is not None:
         write_recording(recording, written.out)
-    show_paths([path for path in (written.column_map, written.out) if path is not None])
+    if paths := [path for path in (written.column_map, written.out) if path is not None]:
+        show_paths(paths)

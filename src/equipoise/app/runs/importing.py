@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from equipoise.app.arguments.inputs import fitted
 from equipoise.assessment.hypotheses.number_table import NumberTable
 from equipoise.assessment.hypotheses.ranking import Ranked, TableReading, ranked
 from equipoise.io.columns.column_map import ColumnMap, Columns
@@ -15,10 +16,11 @@ from equipoise.io.columns.dialects import detect
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.columns.text_times import FORMATS, with_times_as_numbers
-from equipoise.io.recording.recording_file import read_table
+from equipoise.io.recording.recording_file import read_table, recording_from
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
+from equipoise.procedure.identification.attitude_direction import direction_of
 
 MOSTLY = 0.5  # share of a column's rows that must be numbers for it to be one of numbers (chosen)
 NEXT = {"x": "y", "y": "z", "z": "x"}  # axes in cyclic order
@@ -91,6 +93,20 @@ def _by_header(table: Table, options: ReadOptions) -> ColumnMap | None:
         return detect(table.names, table.source, options.body)
     except InputError:
         return None
+
+
+def by_motion(found: Imported, testbed: Testbed, bad_rows: float) -> TableReading | None:
+    """Return which of readings that differ in the attitude's direction is a platform's motion.
+
+    None where the motion does not decide, or the readings differ in more.
+    """
+    alike = found.ranked.alike
+    if len(alike) != 2 or any(reading.gyro is not None for reading in alike):
+        return None
+    columns = found.columns(alike[0], axis_up(testbed))
+    recording = fitted(recording_from(found.table, columns, bad_rows), testbed)
+    direction = direction_of(recording, testbed)
+    return alike[int(direction.is_reversed)] if direction.is_sure else None
 
 
 def axis_up(testbed: Testbed | None) -> str:

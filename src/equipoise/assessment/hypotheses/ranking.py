@@ -22,6 +22,7 @@ from equipoise.model.arrays import Bools
 
 CLOCKS = 3  # that are tried (chosen)
 DOUBTED = 1.0  # doubt beyond the best clock's, from which a clock is not tried (chosen)
+UNUSUAL = 0.25  # doubt beyond the best clock's, from which a unit is out of the question (chosen)
 MOST_ROWS = 12_000  # rows that are compared; chosen: minutes of any sensor
 AGREES = 0.5  # misfit up to which a gyro agrees with an attitude (chosen)
 BEST = 60  # assignments of a gyro that are kept of each attitude (chosen)
@@ -97,8 +98,22 @@ def ranked(table: NumberTable) -> Ranked:
     best = min(readings, key=_misfit)
     alike = sorted((r for r in readings if _excess(r, best) < SURE), key=lambda r: r.doubt)
     others = [r for r in readings if _excess(r, best) >= SURE]
+    alike = _with_known_units(alike)
     decided = len(alike) == 1 or _is_usual(alike[0], alike[1], best)
     return Ranked(tuple(alike[:SHOWN]), min(others, key=_misfit, default=None), decided)
+
+
+def _with_known_units(alike: list[TableReading]) -> list[TableReading]:
+    """Return the readings in which clock and gyro have units that are in use, if some are such.
+
+    A clock in another unit is made up for by a gyro in a unit of its own. Without a gyro only rates
+    that sensors usually have speak for a clock's unit.
+    """
+    named = [r for r in alike if r.gyro is not None and r.gyro.unit]
+    if named or any(r.gyro is not None for r in alike):
+        return named or alike
+    least = min(r.clock.doubt for r in alike)
+    return [r for r in alike if r.clock.doubt < least + UNUSUAL]
 
 
 def _is_usual(first: TableReading, second: TableReading, best: TableReading) -> bool:
