@@ -53,8 +53,8 @@ def testbed_from(testbed: AnyTestbed) -> Testbed:
     if not path.exists() and name in preset_names():
         return read_preset(name)
     if not path.exists() and path.name == name and not path.suffix:
-        wanted = f"a testbed file, or a preset ({nearest(name, list(preset_names()))})"
-        raise InputError("testbed", f"'{name}', which is no file", wanted)
+        found = f"'{name}', which is neither a testbed file nor a preset"
+        raise InputError("testbed", found, nearest(name, list(preset_names())))
     return read_testbed(path)
 
 
