@@ -27,10 +27,10 @@ class UnitVector:
 
 def _tensor(value: Any) -> Any:
     """Return three moments as a tensor without products, and rows of numbers as they are."""
-    rows = cast("list[Any]", value) if isinstance(value, list) and len(value) == 3 else []
-    if rows and all(type(row) is list and len(row) == 3 for row in rows):
+    rows = cast("list[Any]", value) if isinstance(value, list) else []
+    if len(rows) == 3 and all(type(row) is list and len(row) == 3 for row in rows):
         return rows
-    if not rows or not all(type(moment) in (int, float) for moment in rows):
+    if len(rows) != 3 or not all(type(moment) in (int, float) for moment in rows):
         raise PydanticCustomError("no_tensor", TENSOR)
     return [[row if i == j else 0.0 for j in range(3)] for i, row in enumerate(rows)]
 
