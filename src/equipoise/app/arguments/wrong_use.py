@@ -13,11 +13,10 @@ WHAT = "that describes the platform, its sensors and its masses (`equipoise new`
 
 def wrong_use(error: CycloptsError) -> str:
     """Return the sentence: what is missing, or wrong, and how it is given."""
-    argument = error.argument
-    is_missing = isinstance(error, MissingArgumentError) and argument is not None
-    if is_missing and argument.name.strip("-").lower() == "testbed":
+    name = "" if error.argument is None else error.argument.name
+    if isinstance(error, MissingArgumentError) and name.strip("-").lower() == "testbed":
         words = error.root_input_tokens or ()
-        return str(_no_testbed(" ".join(error.command_chain or ()), argument.name, words))
+        return str(_no_testbed(" ".join(error.command_chain or ()), name, words))
     return f"{error} (equipoise --help lists what there is)"
 
 
