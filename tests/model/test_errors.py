@@ -34,7 +34,7 @@ NAME = st.text("abx1", min_size=1, max_size=4)
 
 
 @given(name=NAME, known=st.lists(NAME, min_size=1, max_size=5))
-def test_a_name_that_was_meant_is_asked_for_once(name, known):
+def test_a_name_that_was_meant_is_offered_once(name, known):
     """A sentence wants something or asks what was meant, and does neither twice."""
     sentence = str(InputError("here", f"'{name}'", nearest(name, known)))
     ends = [sentence.count("; wanted one of "), sentence.count("; did you mean '")]
@@ -89,6 +89,6 @@ def test_every_caller_passes_on_whole_what_nearest_returns():
 @pytest.mark.parametrize(
     "text", ['f"one ({nearest(a, b)})"', 'nearest(a, b) + "of"', "f'one ({w})'"]
 )
-def test_what_is_wrapped_is_seen(text):
+def test_what_is_wrapped_is_found(text):
     """The last one keeps it under a name first."""
     assert list(wrapped(ast.parse(f"w = nearest(a, b)\n\nresult = {text}"))) == [3]

@@ -5,13 +5,15 @@ which is loaded when the first recording is made of something in memory.
 """
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from numpy.typing import ArrayLike
 else:
     ArrayLike = Any  # the root imports this module, and no library
+    Self = Any  # what checks types at run time sees functions, and not whose they are
 
 BAD_ROWS = 0.05  # share of the rows that may be left out as faulty (chosen)
 # What is lent: a module with ``from_arrays`` and ``from_pandas``.
@@ -25,6 +27,15 @@ def make_with(maker: Callable[[], Any]) -> None:
 
 def _maker() -> Any:
     return _lent[-1]()
+
+
+@runtime_checkable
+class PathLike(Protocol):
+    """A path of a file, as ``pathlib`` has it; no record may import that."""
+
+    def __fspath__(self) -> str:
+        """Return the path as text."""
+        ...
 
 
 class FromMemory:
@@ -122,7 +133,7 @@ class FromMemory:
         cls,
         frame: Any,
         *,
-        columns: str | Path | None = None,
+        columns: str | PathLike | None = None,
         bad_rows: float = BAD_ROWS,
         source: str = "frame",
     ) -> Self:

@@ -1,6 +1,6 @@
 """A testbed that is missing, or that stands where a recording does, is answered by how to give it.
 
-Every command that needs one is asked.
+Every command that needs one is tried.
 """
 
 import inspect
@@ -39,7 +39,7 @@ def test_a_missing_testbed_that_has_no_option_is_explained(equipoise, command):
         assert word in line
 
 
-def test_both_kinds_of_command_are_asked():
+def test_both_kinds_of_command_are_tried():
     assert {"identify", "assess", "observe", "calibrate"} <= {*BY_OPTION}
     assert {"design", "simulate", "balance", "check"} <= {*BY_PLACE}
 
