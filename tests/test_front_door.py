@@ -91,6 +91,13 @@ def test_a_verb_documents_every_option_and_what_it_raises(name):
         assert section(text, "Raises")
 
 
+@pytest.mark.parametrize("way", [eq.Recording.from_arrays, eq.Recording.from_pandas])
+def test_a_way_to_make_a_recording_documents_every_option_and_what_it_raises(way):
+    text = inspect.getdoc(way) or ""
+    assert WORD.findall(section(text, "Parameters")) == list(inspect.signature(way).parameters)
+    assert section(text, "Raises")
+
+
 @pytest.mark.parametrize("name", CLASSES)
 def test_a_class_documents_itself_and_its_methods(name):
     kind = getattr(eq, name)

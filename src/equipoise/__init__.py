@@ -7,6 +7,7 @@ is loaded when it is first used, so that the import itself takes no time.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from equipoise.model.from_memory import make_with
 from equipoise.model.presentation import present_with
 from equipoise.model.version import __version__
 
@@ -89,4 +90,12 @@ def _presenter() -> Any:
     return presenter
 
 
+def _maker() -> Any:
+    """Return what makes recordings; it is loaded when one is first made of arrays or tables."""
+    from equipoise.app.api import made_recordings
+
+    return made_recordings
+
+
 present_with(_presenter)
+make_with(_maker)

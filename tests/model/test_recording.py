@@ -176,7 +176,7 @@ def test_a_record_without_devices_is_left_as_it_is():
 @pytest.mark.parametrize(
     ("name", "devices", "words"),
     [
-        ("wheel:yy", DEVICES, "r.csv: devices: found 'wheel:yy'; wanted did you mean 'wheel:y'"),
+        ("wheel:yy", DEVICES, "r.csv: devices: found 'wheel:yy'; did you mean 'wheel:y'"),
         ("wheel:y", (), "wanted none: the testbed has none"),
     ],
 )

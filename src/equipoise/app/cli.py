@@ -12,6 +12,7 @@ from io import TextIOWrapper
 
 from cyclopts import App, CycloptsError, Parameter
 
+from equipoise.app.arguments.wrong_use import wrong_use
 from equipoise.app.commands.assess import assess
 from equipoise.app.commands.balance import balance
 from equipoise.app.commands.calibrate import calibrate
@@ -81,7 +82,7 @@ def _run(arguments: Sequence[str] | None) -> int:
     try:
         return app(arguments, exit_on_error=False, print_error=False) or 0
     except CycloptsError as error:
-        complain(f"{error} (equipoise --help lists what there is)")
+        complain(wrong_use(error))
     except Implausible as error:
         complain(str(error))
         return NOT_USABLE

@@ -28,11 +28,15 @@ def _made_anew(
     return error
 
 
+MEANT = "did you mean"
+
+
 class InputError(EquipoiseError):
-    """A file, key, column or option that cannot be used."""
+    """A file, key, column or option that cannot be used; ``wanted`` may ask what was meant."""
 
     def __init__(self, where: str, found: str, wanted: str) -> None:
-        super().__init__(f"{where}: found {found}; wanted {wanted}")
+        end = wanted if wanted.startswith(MEANT) else f"wanted {wanted}"
+        super().__init__(f"{where}: found {found}; {end}")
         self.where = where
         self.found = found
         self.wanted = wanted
@@ -86,6 +90,6 @@ class Implausible(EquipoiseError):
 
 
 def nearest(name: str, known: Sequence[str]) -> str:
-    """Say which known name is meant, or list them: the tail of a 'wanted' text."""
+    """Say which known name is meant, or list them: the whole of a 'wanted' text."""
     close = get_close_matches(name, known, n=1)
-    return f"did you mean '{close[0]}'?" if close else "one of " + ", ".join(known)
+    return f"{MEANT} '{close[0]}'?" if close else "one of " + ", ".join(known)

@@ -15,6 +15,7 @@ import numpy as np
 from equipoise.model.arrays import Bools, Series, Series1
 from equipoise.model.devices import Device, at_start, recorded_name
 from equipoise.model.errors import InputError, nearest
+from equipoise.model.from_memory import FromMemory
 from equipoise.model.presentation import Plotted
 
 
@@ -61,7 +62,7 @@ def runs(mask: Bools) -> list[tuple[int, int]]:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Recording(Plotted):
+class Recording(Plotted, FromMemory):
     """What was recorded. Any channel may be absent."""
 
     attitude: Samples | None = None  # (n, 4) unit quaternions, scalar first, body to laboratory

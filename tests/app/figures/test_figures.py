@@ -3,6 +3,7 @@
 Warnings (a layout that collapses, a missing glyph) are errors in this project.
 """
 
+import os
 import subprocess
 import sys
 
@@ -94,6 +95,53 @@ def test_no_window_is_ever_thought_of():
         "assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+DRAWN_FOR_FILES = """
+import sys
+from pathlib import Path
+import equipoise as eq
+from equipoise.app.cli import run
+from equipoise.app.figures.base.files import write_figure
+figure = eq.simulate("sputnix", duration=10.0, seed=1).plot()
+for kind in ("png", "svg", "pdf"):
+    write_figure(figure, Path(f"a.{kind}"))
+assert run(["print-board", "--out", "board.pdf"]) == 0
+sys.exit(run(["simulate", "sputnix", "--duration-s", "10", "--out", "b.csv"])
+         or run(["inspect", "b.csv", "--figure", "b.png"]))
+"""
+
+
+@pytest.mark.parametrize("backend", ["module://matplotlib_inline.backend_inline", "none_such"])
+def test_a_backend_that_cannot_be_imported_breaks_no_figure(tmp_path, backend):
+    """A notebook names its own for every program that it starts."""
+    done = subprocess.run(
+        [sys.executable, "-c", DRAWN_FOR_FILES],
+        cwd=tmp_path,
+        env={**os.environ, "MPLBACKEND": backend},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    names = ("a.pdf", "a.png", "a.svg", "b.csv", "b.png", "board.pdf")
+    assert {path.name for path in tmp_path.iterdir()} >= {*names}
+
+
+def test_a_backend_that_can_be_used_stays_as_it_was_named():
+    """The caller may draw windows of its own."""
+    code = (
+        "import equipoise.app.figures.base.style, matplotlib, os; "
+        "print(matplotlib.rcParams['backend'], os.environ['MPLBACKEND'])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "MPLBACKEND": "svg"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.split() == ["svg", "svg"]
 
 
 def test_the_model_leaves_noise_in_figure_7(pictures):

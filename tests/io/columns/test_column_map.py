@@ -196,5 +196,5 @@ def test_a_bad_map_is_named_with_its_key(tmp_path, old, new, where, words) -> No
 
 def test_a_declared_column_that_is_not_there_names_the_nearest(tmp_path) -> None:
     """The header is named, and the column that is meant."""
-    with pytest.raises(InputError, match="no column 'stages'; wanted did you mean 'stage'"):
+    with pytest.raises(InputError, match="no column 'stages'; did you mean 'stage'"):
         read(tmp_path, MAP.replace('"stage"', '"stages"'))

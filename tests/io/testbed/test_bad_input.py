@@ -1,5 +1,7 @@
 """Bad testbed files: one sentence with the file, the key, what was found and what was wanted."""
 
+import re
+
 import pytest
 
 from equipoise.io.testbed.testbed_file import parse_testbed, read_testbed, write_testbed
@@ -28,8 +30,26 @@ CASES = {
     "misspelt key": ("mass_kg", "mas_kg", "platform.mas_kg", ["'mass_kg'"]),
     "unknown key": ("com_um = ", "colour = ", "platform.colour", ["unknown key 'colour'"]),
     "unknown table": ("[truth]", "[trooth]", "trooth", ["'truth'"]),
-    "missing key": ("mass_kg = 14.24\n", "", "platform.mass_kg", ["no such key", "in kg"]),
-    "missing name": ('name = "t"\n', "", "name", ["no such key"]),
+    "missing key": (
+        "mass_kg = 14.24\n",
+        "",
+        "platform.mass_kg",
+        ["no such key; wanted it in the table platform, in kg"],
+    ),
+    "missing name": ('name = "t"\n', "", "name", ["no such key; wanted it above all tables"]),
+    "missing range": (
+        "travel_mm = [-50, 50]\n",
+        "",
+        "sliding_mass[1].travel_mm",
+        ["it in the table sliding_mass[1], in mm: least and greatest displacement"],
+    ),
+    "missing table": (
+        "[platform]\nmass_kg = 14.24\ninertia_kg_m2 = [[0.3, 0, 0], [0, 0.5, 0], [0, 0, 0.7]]\n"
+        "com_um = [0, 0, -90]\n",
+        "",
+        "platform",
+        ["no such key; wanted a table of this name"],
+    ),
     "negative mass": ("14.24", "-14.24", "platform.mass_kg", ["-14.24", "above 0", "in kg"]),
     "mass is zero": ("15.6", "0", "sliding_mass[1].mass_g", ["above 0", "in g"]),
     "not a number": ("14.24", "nan", "platform.mass_kg", ["nan", "finite"]),
@@ -67,6 +87,35 @@ CASES = {
         "[[0.3, 0.1, 0], [0, 0.5, 0], [0, 0, 0.7]]",
         "platform.inertia_kg_m2",
         ["row 1, column 2 = 0.1", "symmetric"],
+    ),
+    **{
+        f"inertia of {kind}": (
+            INERTIA,
+            shape,
+            "platform.inertia_kg_m2",
+            [shape, "three moments [xx, yy, zz], or three rows [[xx, xy, xz], ", "in kg m2"],
+        )
+        for kind, shape in {
+            "one number": "0.3",
+            "two moments": "[0.3, 0.5]",
+            "six elements": "[0.3, 0.5, 0.7, 0, 0, 0]",
+            "two rows": "[[0.3, 0, 0], [0, 0.5, 0]]",
+            "short rows": "[[0.3, 0], [0, 0.5], [0, 0]]",
+            "moments and a row": "[0.3, 0.5, [0, 0, 0.7]]",
+            "a word": "[0.3, 'big', 0.7]",
+        }.items()
+    },
+    "word in a row": (
+        INERTIA,
+        '[[0.3, "so", 0], [0, 0.5, 0], [0, 0, 0.7]]',
+        "platform.inertia_kg_m2[1][2]",
+        ["'so'", "a number without quotes, in kg m2"],
+    ),
+    "impossible moments": (
+        INERTIA,
+        "[0.3, 0.5, 0.9]",
+        "platform.inertia_kg_m2",
+        ["impossible inertia", "0.9 < 0.3 + 0.5 = 0.8"],
     ),
     "impossible inertia": (
         INERTIA,
@@ -128,7 +177,7 @@ def test_a_bad_key_is_named_with_what_was_wanted(old, new, key, words) -> None:
         parse_testbed(GOOD.replace(old, new, 1), "my.toml")
     sentence = str(caught.value)
     assert sentence.startswith(f"my.toml: {key}")
-    assert "; wanted " in sentence
+    assert re.search("; (wanted|did you mean) ", sentence)
     assert "\n" not in sentence
     for word in words:
         assert word in sentence

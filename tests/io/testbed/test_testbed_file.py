@@ -46,6 +46,29 @@ def test_a_bare_file_gets_the_documented_defaults() -> None:
     assert testbed.attitude is testbed.gyro is testbed.truth is None
 
 
+@pytest.mark.parametrize("key", ["platform", "truth"])
+def test_three_moments_are_a_tensor_without_products_and_come_back(key) -> None:
+    """Written again it has its rows; either form reads the same."""
+    rows, moments = "[[0.5, 0, 0], [0, 0.5, 0], [0, 0, 0.6]]", "[0.5, 0.5, 0.6]"
+    text = MINIMAL + f'about = "P"\n[truth]\ninertia_kg_m2 = {rows}\n'
+    head, before, tail = text.partition(f"[{key}]")
+    either = parse_testbed(head + before + tail.replace(rows, moments, 1), "t")
+    again = parse_testbed(text_of(either), "t")
+    for bed in (either, again):
+        assert bed.truth is not None
+        held = bed.body.inertia_P if key == "platform" else bed.truth.inertia_P
+        np.testing.assert_array_equal(held, np.diag([0.5, 0.5, 0.6]))
+
+
+def test_the_schema_has_both_forms_of_an_inertia() -> None:
+    """An editor that checks keys by it takes either."""
+    key = json_schema()["$defs"]["Platform"]["properties"]["inertia_kg_m2"]
+    triple, square = key["anyOf"]
+    assert triple["items"] == {"type": "number"}
+    assert square["items"] == triple
+    assert "three moments" in key["description"]
+
+
 def test_units_of_a_sliding_mass_become_si_and_its_axis_a_unit_vector() -> None:
     """20 g, 100 mm and the axis (0, 3, 4) are 0.02 kg, 0.1 m and (0, 0.6, 0.8)."""
     mass = parse_testbed(MINIMAL + MASS, "t").mass_named("x1")

@@ -32,6 +32,13 @@ def between(option: str, value: float, low: float, high: float) -> float:
     return value
 
 
+def share(option: str, value: float) -> float:
+    """Return a share of the rows."""
+    if not 0 <= value < 1:
+        raise InputError(option, f"{value:g}", "a share of the rows: at least 0, less than 1")
+    return value
+
+
 def seed_of(value: int) -> int:
     """Return a seed that every generator takes."""
     if not 0 <= value < 2**63:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.actuators.stored_momentum import with_known_inputs
-from equipoise.app.arguments.checks import one_of, positive
+from equipoise.app.arguments.checks import one_of, positive, share
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.io.columns.column_map_file import read_column_map
@@ -53,8 +53,8 @@ def testbed_from(testbed: AnyTestbed) -> Testbed:
     if not path.exists() and name in preset_names():
         return read_preset(name)
     if not path.exists() and path.name == name and not path.suffix:
-        wanted = f"a testbed file, or a preset ({nearest(name, list(preset_names()))})"
-        raise InputError("testbed", f"'{name}', which is no file", wanted)
+        found = f"'{name}', which is neither a testbed file nor a preset"
+        raise InputError("testbed", found, nearest(name, list(preset_names())))
     return read_testbed(path)
 
 
@@ -105,11 +105,7 @@ def read_options(reading: "Reading", dashes: str = "") -> ReadOptions:
     """Return how a file is read; ``dashes`` stand before the options' names in an error."""
     if reading.dialect is not None and reading.columns is not None:
         raise InputError(f"{dashes}dialect and {dashes}columns", "both", "one of them")
-    if not 0 <= reading.bad_rows < 1:
-        wanted = "a share of the rows: at least 0, less than 1"
-        raise InputError(
-            f"{dashes}bad{'-' if dashes else '_'}rows", f"{reading.bad_rows:g}", wanted
-        )
+    share(f"{dashes}bad{'-' if dashes else '_'}rows", reading.bad_rows)
     columns = None if reading.columns is None else read_column_map(reading.columns)
     return ReadOptions(reading.dialect, columns, reading.topic, reading.body, reading.instance,
                        reading.bad_rows)  # fmt: skip

@@ -42,11 +42,10 @@ unit = "nT"
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import numpy as np
 from pydantic import BeforeValidator, Field
 
 from equipoise.io.columns.attitude_table import AttitudeTable, attitude_columns
-from equipoise.io.columns.axis_permutation import axes_matrix
+from equipoise.io.columns.axis_permutation import checked_axes
 from equipoise.io.columns.column_map import (
     ColumnMap,
     Columns,
@@ -153,7 +152,7 @@ def column_map_of(table: MapFile, source: str) -> ColumnMap:
     if table.attitude is None and table.rate is None:
         raise InputError(source, "neither [attitude] nor [rate]", "at least one of them")
     separator = "\t" if table.separator == "tab" else table.separator
-    body = _axes(table.body, f"{source}: body") or ("x", "y", "z")
+    body = checked_axes(table.body, f"{source}: body")
     return ColumnMap(
         time=(_time(table.time, f"{source}: time"),),
         time_format=table.time.format,
@@ -190,7 +189,7 @@ def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
     if table is None:
         return None
     # A gyro's axes may be left-handed: one that is mounted or wired the other way round.
-    axes = None if table.axes is None else _axes(table.axes, f"{where}.axes", kind != "rate")
+    axes = None if table.axes is None else checked_axes(table.axes, f"{where}.axes", kind != "rate")
     unit = factor(table.unit, kind, where) * table.factor
     return Columns(tuple(table.columns), unit, axes, tuple(table.offset))
 
@@ -198,13 +197,3 @@ def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
 def _device(table: DeviceTable, where: str) -> NamedColumn:
     unit = factor(table.unit, QUANTITY[table.reports], where)
     return NamedColumn(f"{table.reports}:{table.name}", table.column, unit)
-
-
-def _axes(axes: list[Axis], where: str, right_handed: bool = True) -> tuple[str, str, str]:
-    """Return three axes that make a frame."""
-    x, y, z = axes
-    handed = float(np.linalg.det(axes_matrix((x, y, z))))
-    if not np.isclose(handed if right_handed else abs(handed), 1.0):
-        frame = " that make a right-handed frame" if right_handed else ""
-        raise InputError(where, f"{axes}", f"three different axes{frame}")
-    return x, y, z

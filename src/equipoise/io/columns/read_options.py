@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 
 from equipoise.io.columns.column_map import ColumnMap, Layout
-
-BAD_ROWS = 0.05  # share of a file's rows that may be left out as faulty (chosen)
+from equipoise.model.from_memory import BAD_ROWS
 
 
 @dataclass(frozen=True, slots=True)

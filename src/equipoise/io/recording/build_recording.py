@@ -60,12 +60,19 @@ def channel_of(source: Rows, name: str) -> Found:
     return Found(kept, (*faulty, *twice), dead)
 
 
-@np.errstate(invalid="ignore", over="ignore")  # an error names such a number and its row
 def recording_of(table: Table, columns: ColumnMap, bad_rows: float = BAD_ROWS) -> Recording:
     """Return what a table holds; InputError if it is too little or makes no sense.
 
     At most the share ``bad_rows`` of its rows are left out as faulty.
     """
+    recording = rows_of(table, columns, bad_rows)
+    check_enough(table.source, recording)
+    return recording
+
+
+@np.errstate(invalid="ignore", over="ignore")  # an error names such a number and its row
+def rows_of(table: Table, columns: ColumnMap, bad_rows: float) -> Recording:
+    """Return what a table holds, however little it is; InputError if it makes no sense."""
     clock = clock_of(table, columns)
     source, from_zero = _rows(table, columns, clock)
     attitude, norm = _attitude(source)
@@ -73,7 +80,6 @@ def recording_of(table: Table, columns: ColumnMap, bad_rows: float = BAD_ROWS) -
     found = {"attitude": attitude, **others}
     faulty = (*table.faulty, *clock.faulty, *(f for each in found.values() for f in each.faulty))
     left_out = without_faulty(table.source, len(table), faulty, bad_rows, table.place)
-    _check_enough(table, attitude.channel, others["rate"].channel)
     samples: dict[str, Any] = {name: _samples(each.channel) for name, each in found.items()}
     notes = chain.from_iterable(each.notes for each in found.values())
     sensors = (attitude.channel, others["rate"].channel)
@@ -112,12 +118,14 @@ def _attitude(source: Rows) -> tuple[Found, Channel | None]:
     return whole, lengths(raw) if is_quaternion else None
 
 
-def _check_enough(table: Table, *sensors: Channel | None) -> None:
+def check_enough(source: str, recording: Recording) -> None:
+    """Raise InputError for a recording of so few rows that nothing follows from them."""
+    sensors = (recording.attitude, recording.rate)
     most = max((len(sensor) for sensor in sensors if sensor is not None), default=0)
     if most < FEWEST:
         count = f"{most} row{'s' * (most > 1)}"
         found = f"{count} of attitude or rate" if most else "neither attitude nor rate"
-        raise InputError(table.source, found, f"at least {FEWEST} rows of attitude or of rate")
+        raise InputError(source, found, f"at least {FEWEST} rows of attitude or of rate")
 
 
 def _samples(channel: Channel | None) -> Samples | None:

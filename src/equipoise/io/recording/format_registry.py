@@ -97,6 +97,9 @@ def _with(*marks: bytes) -> Begins:
 def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
     refuse_choice(options, str(path), "a table")
     text, source, layout = text_of(content, path, WANTED), str(path), options.layout
+    if path.suffix.lower() == ".toml":
+        wanted = f"{WANTED}; a testbed is given as --testbed {path}"
+        raise InputError(source, "a TOML file, as a testbed is", wanted)
     if layout.skip_rows is None and layout.header:  # else a person has said where rows begin
         text = with_vicon_header(with_qualisys_header(text, source), source)
     return cut(text, source, layout), None

@@ -49,16 +49,15 @@ def write_recording(recording: Recording, path: str | Path) -> None:
 
 def check_names(recording: Recording, testbed: Testbed) -> None:
     """Raise InputError if the recording names a mass or device that the testbed does not have."""
-    of = f" (of testbed {testbed.source or testbed.name})"
+    of = f"which testbed {testbed.source or testbed.name} does not have"
     for kind, names, known in (
         ("mass", recording.mass_names, list(testbed.mass_names)),
         ("device", recording.device_names, list(testbed.device_names)),
     ):
         for name in names:
             if name not in known:
-                none = f"no {kind}: the testbed has none"
-                wanted = nearest(name, known) if known else none
-                raise InputError(f"{recording.source}, header", f"{kind} '{name}'", wanted + of)
+                wanted = nearest(name, known) if known else f"no {kind}: the testbed has none"
+                raise InputError(f"{recording.source}, header", f"{kind} '{name}', {of}", wanted)
 
 
 def _columns(table: Table, known: ColumnMap | None, options: ReadOptions) -> ColumnMap:

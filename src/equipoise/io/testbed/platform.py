@@ -10,12 +10,12 @@ from equipoise.io.testbed.inertia_check import check_inertia, measured
 from equipoise.io.toml.key_types import (
     Direction,
     Holds,
+    Inertia,
     Name,
     NotNegative,
     Pair,
     Positive,
     SdTriple,
-    Square,
     Triple,
     unit_vector,
 )
@@ -36,8 +36,8 @@ class Platform(RecordTable):
     """Everything that floats, with the sliding masses at home."""
 
     mass_kg: Annotated[Positive, Holds("body.mass")]
-    inertia_kg_m2: Annotated[Square, Holds("body.inertia_P")] = Field(
-        description="tensor elements: products are minus the integrals"
+    inertia_kg_m2: Annotated[Inertia, Holds("body.inertia_P")] = Field(
+        description="three moments, or a tensor of three rows; products are minus the integrals"
     )
     inertia_sd_percent: Positive = Field(
         10.0,

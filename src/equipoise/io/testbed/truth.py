@@ -12,10 +12,10 @@ from equipoise.io.toml.key_types import (
     Direction,
     Five,
     Holds,
+    Inertia,
     NotNegative,
     Pair,
     Positive,
-    Square,
     Triple,
 )
 from equipoise.io.toml.table_records import RecordTable, record_of, records_of
@@ -118,8 +118,8 @@ class Truth(RecordTable):
     com_um: Triple | None = None
     com_low_um: Triple | None = None
     com_high_um: Triple | None = None
-    inertia_kg_m2: Annotated[Square | None, Holds("inertia_P")] = Field(
-        None, description="about the platform's point"
+    inertia_kg_m2: Annotated[Inertia | None, Holds("inertia_P")] = Field(
+        None, description="about the platform's point; in either form of the platform's"
     )
     inertia_error_percent: Annotated[float, Field(ge=0, lt=100)] = 0.0
     attitude_deg: Triple | None = Field(None, description="roll, pitch, yaw (3-2-1)")

@@ -2,10 +2,11 @@
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any, cast, get_args
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
@@ -24,11 +25,23 @@ class UnitVector:
     """Marks a key whose three numbers are made a unit vector."""
 
 
+def _tensor(value: Any) -> Any:
+    """Return three moments as a tensor without products, and rows of numbers as they are."""
+    rows = cast("list[Any]", value) if isinstance(value, list) else []
+    if len(rows) == 3 and all(type(row) is list and len(row) == 3 for row in rows):
+        return rows
+    if len(rows) != 3 or not all(type(moment) in (int, float) for moment in rows):
+        raise PydanticCustomError("no_tensor", TENSOR)
+    return [[row if i == j else 0.0 for j in range(3)] for i, row in enumerate(rows)]
+
+
 ITSELF = "."
+TENSOR = "three moments [xx, yy, zz], or three rows [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]"
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 Five = Annotated[list[float], Field(min_length=5, max_length=5)]
 Square = Annotated[list[Triple], Field(min_length=3, max_length=3)]
+Inertia = Annotated[Square, BeforeValidator(_tensor, json_schema_input_type=Triple | Square)]
 Direction = Annotated[list[float], Field(min_length=3, max_length=3), UnitVector()]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]

@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 from equipoise.io.files.source_file import read_bytes, text_of
 from equipoise.io.toml.key_types import Table, table_in
 from equipoise.io.toml.units import SPOKEN, split_unit
-from equipoise.model.errors import InputError
+from equipoise.model.errors import MEANT, InputError
 
 Model = TypeVar("Model", bound=Table)
 SHOWN = 60  # characters of a found value that are repeated; chosen: one line of a terminal
@@ -79,7 +79,7 @@ def _sentence(problem: ErrorDetails, source: str, schema: type[Table]) -> InputE
             where, f"unknown key '{key}'", _meant(key, list(_table_at(schema, place)))
         )
     if problem["type"] == "missing":
-        return InputError(where, "no such key", f"'{key}'{_in_unit(key)}")
+        return InputError(where, "no such key", _missing(place, schema))
     plain = PLAIN.get(problem["type"], problem["msg"]).format(**problem.get("ctx", {}))
     name = _last_name(place)
     unit = "" if problem["type"] == "literal_error" else _in_unit(name)
@@ -101,7 +101,18 @@ def _meant(key: str, known: list[str]) -> str:
     if same:
         return f"the key '{same[0]}'{_in_unit(same[0])}: the unit belongs to the key"
     close = get_close_matches(key, known, n=1) or get_close_matches(stem, known, n=1)
-    return f"'{close[0]}'?" if close else "one of " + ", ".join(known)
+    return f"{MEANT} '{close[0]}'?" if close else "one of " + ", ".join(known)
+
+
+def _missing(place: tuple[int | str, ...], schema: type[Table]) -> str:
+    """Say where a key that has to be there stands, in which unit, and what it is."""
+    key, table = str(place[-1]), place[:-1]
+    declared = _table_at(schema, place)[key]
+    if table_in(declared.annotation) is not None:
+        return "a table of this name"
+    home = f"in the table {dotted(table)}" if table else "above all tables"
+    meaning = f": {declared.description}" if declared.description else ""
+    return f"it {home}{_in_unit(key)}{meaning}"
 
 
 def _in_unit(key: str) -> str:
