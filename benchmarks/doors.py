@@ -10,22 +10,26 @@ from pathlib import Path
 import numpy as np
 
 from equipoise.actuators.mass_allocation import allocate, rails_of
+from equipoise.io.columns.column_map import Layout
+from equipoise.io.columns.native_columns import native_columns
+from equipoise.io.columns.table import Table
 from equipoise.io.documents.logbook import RUN, open_logbook
 from equipoise.io.documents.run_file import text_of_run
+from equipoise.io.formats.csv_table import csv_text, cut, row_by_row
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential
 from equipoise.model.recording import Recording, Samples
 from tests.io.documents.killed_writer import run
 
-ROWS, RUNS, ANSWERS = 180_000, 10_000, 20
+ROWS, LONG_ROWS, RUNS, ANSWERS = 180_000, 500_000, 10_000, 20
 
 
 def table() -> Iterator[tuple[str, float, float]]:
     """Return what was done, the seconds that it took at best, and those wanted at most."""
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "half_an_hour.csv"
-        write_recording(half_an_hour(), file)
+        file = Path(folder) / "recorded.csv"
+        write_recording(recorded(ROWS), file)
         yield f"reading {ROWS:,} rows of CSV", quickest(lambda: read_recording(file), 3), 15.0
         runs = Path(folder) / "runs"
         write_runs(runs)
@@ -47,11 +51,25 @@ def quickest(call: Callable[[], object], repeats: int) -> float:
     return min(taken)
 
 
-def half_an_hour() -> Recording:
-    """Return half an hour of attitude and rate at 100 Hz."""
-    rng, t = np.random.default_rng(1), np.arange(ROWS) * 0.01
-    q = exponential(np.cumsum(rng.normal(scale=1e-3, size=(ROWS, 3)), axis=0))
-    return Recording(attitude=Samples(t, q), rate=Samples(t, rng.normal(size=(ROWS, 3))))
+def recorded(rows: int) -> Recording:
+    """Return attitude and rate at 100 Hz."""
+    rng, t = np.random.default_rng(1), np.arange(rows) * 0.01
+    q = exponential(np.cumsum(rng.normal(scale=1e-3, size=(rows, 3)), axis=0))
+    return Recording(attitude=Samples(t, q), rate=Samples(t, rng.normal(size=(rows, 3))))
+
+
+def long_text() -> tuple[float, float, float]:
+    """Return the MB of a long table, and the seconds to numbers: row by row, and by pyarrow."""
+    text = csv_text(native_columns(recorded(LONG_ROWS)))
+    by_rows, by_columns = (
+        quickest(lambda c=c: numbers(c(text, "long.csv", Layout())), 3) for c in (row_by_row, cut)
+    )
+    return 1e-6 * len(text), by_rows, by_columns
+
+
+def numbers(table: Table) -> int:
+    """Return how many cells of a table hold a number."""
+    return sum(int(np.isfinite(table.numbers(name).values).sum()) for name in table.names)
 
 
 def write_runs(folder: Path) -> None:

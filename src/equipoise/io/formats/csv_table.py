@@ -6,7 +6,6 @@ Motive writes several header lines (kind, name, identity, rotation or position) 
 X, Y, Z, W; a name that occurs twice there is distinguished by what stands above it.
 """
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
@@ -16,17 +15,22 @@ import numpy as np
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
 from equipoise.io.columns.table import Numbers, Table
-from equipoise.io.formats.header_rows import Header, filled, header_of
+from equipoise.io.formats.cell_numbers import numbers_of
+from equipoise.io.formats.header_rows import filled, header_of, place_of
+from equipoise.io.formats.long_text import LONG, plain_table
 from equipoise.io.formats.text_rows import text_rows
 from equipoise.model.arrays import Ints, Series1
 from equipoise.model.errors import InputError
 
-NAN = frozenset({"nan", "na", "n/a", "#n/a", "null", "none", "-", "--"})  # words for no number
-Cells = tuple[str, ...]
-
 
 def cut(text: str, source: str, layout: Layout) -> Table:
     """Return the table in a text."""
+    plain = plain_table(text, source, layout) if len(text) > LONG else None
+    return row_by_row(text, source, layout) if plain is None else plain
+
+
+def row_by_row(text: str, source: str, layout: Layout) -> Table:
+    """Return the table in a text of any length and any faults."""
     found = text_rows(text, source, layout)
     table = table_of(found.rows, found.lines, source, layout, found.decimal)
     return replace(table, notes=(*found.notes, *table.notes))
@@ -53,7 +57,7 @@ def table_of(
 
     @cache
     def numbers(name: str) -> Numbers:
-        return _numbers(cells[_place(header, name, source)], point)
+        return numbers_of(cells[place_of(header, name, source)], point)
 
     return Table(
         source,
@@ -74,35 +78,6 @@ def csv_text(columns: Mapping[str, Series1]) -> str:
     cells = [["" if x != x else repr(x) for x in map(float, v)] for v in columns.values()]
     rows = map(",".join, zip(*cells, strict=True))
     return "\n".join([",".join(columns), *rows]) + "\n"
-
-
-def _place(header: Header, name: str, source: str) -> int:
-    if header.names.count(name) > 1:
-        raise InputError(f"{source}, header", f"two columns '{name}'", "one")
-    return header.names.index(name)
-
-
-def _numbers(column: Cells, decimal: str) -> Numbers:
-    """Return a column of cells as numbers."""
-    try:
-        values = np.array([float(cell) if cell else math.nan for cell in column])
-    except ValueError:
-        values = np.array([_number(cell, decimal) for cell in column])
-    empty = np.flatnonzero(~np.isfinite(values))
-    words = [column[row].strip().lower() for row in empty.tolist()]
-    nan = np.array([word in NAN for word in words], dtype=bool)
-    garbage = np.array([bool(word) and word not in NAN for word in words], dtype=bool)
-    values[empty] = np.nan
-    return Numbers(values, empty[nan], empty[garbage])
-
-
-def _number(cell: str, decimal: str) -> float:
-    """Return one cell's number, NaN if it is blank or no number."""
-    text = cell.strip()
-    try:
-        return float(text.replace(",", ".") if decimal == "," else text)
-    except ValueError:
-        return math.nan
 
 
 def _joined_in_pairs(

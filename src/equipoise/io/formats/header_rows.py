@@ -42,6 +42,13 @@ def header_of(rows: list[list[str]], lines: list[int], source: str, layout: Layo
     return Header(_column_names(rows, last, last + 1), last + 1)
 
 
+def place_of(header: Header, name: str, source: str) -> int:
+    """Return the column of a name; InputError if two have it."""
+    if header.names.count(name) > 1:
+        raise InputError(f"{source}, header", f"two columns '{name}'", "one")
+    return header.names.index(name)
+
+
 def _no_header(rows: list[list[str]], begin: int) -> Header:
     count = max(map(len, rows[begin : begin + HEAD_LINES]), default=0)
     note = f"There is no header; the columns are called 1 to {count}."

@@ -20,12 +20,13 @@ csv.field_size_limit(1 << 20)  # characters; a cell beyond this is not a table's
 
 @dataclass(frozen=True, slots=True)
 class TextRows:
-    """Rows that are not blank, the lines that they end on, and how their numbers are written."""
+    """Rows that are not blank, the lines that they end on, and how they are written."""
 
     rows: list[list[str]]
     lines: list[int]
     decimal: str = "."
     notes: tuple[str, ...] = ()
+    separator: str = ","
 
 
 def text_rows(text: str, source: str, layout: Layout) -> TextRows:
@@ -36,7 +37,7 @@ def text_rows(text: str, source: str, layout: Layout) -> TextRows:
     cut = _by_spaces if separator == " " else _by_separator
     rows, lines = cut(all_lines, source, separator)
     decimal = layout.decimal or ("," if separator != "," else ".")
-    return TextRows(rows, lines, decimal, notes)
+    return TextRows(rows, lines, decimal, notes, separator)
 
 
 def separator_of(lines: list[str]) -> str:
