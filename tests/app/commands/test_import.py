@@ -58,9 +58,9 @@ def test_columns_without_meaning_are_read_and_the_map_reads_them_again(
 def test_a_camera_alone_is_decided_by_a_testbed(equipoise, tmp_path, recording):
     """Without one both directions are shown; the second may be chosen by its number."""
     table(tmp_path / "raw.csv", recording, names=MEANINGLESS[:5])
-    asked = equipoise("import", str(tmp_path / "raw.csv"))
-    assert asked.code == 1
-    assert "--choose 1 to 2" in asked.out
+    undecided = equipoise("import", str(tmp_path / "raw.csv"))
+    assert undecided.code == 1
+    assert "--choose 1 to 2" in undecided.out
     chosen = equipoise("import", str(tmp_path / "raw.csv"), "--choose", "2")
     assert chosen.code == 0
     beyond = equipoise("import", str(tmp_path / "raw.csv"), "--choose", "3")
