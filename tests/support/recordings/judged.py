@@ -1,0 +1,149 @@
+"""What a person gets who gives a file to `inspect` and `import`, judged against what is right."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.recording.recording_file import read_recording
+from equipoise.model.arrays import Series1
+from equipoise.model.recording import Recording, Samples
+from tests.support.recordings.recorded_motion import Motion
+from tests.support.recordings.same_motion import EYE, LEVEL, axes_of, departure, turn_between
+from tests.support.recordings.variant import Answer, Chosen, Reads, Refused, Variant
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """What a command left."""
+
+    code: int
+    out: str
+    err: str
+
+
+Command = Callable[..., Printed]
+OUT = "imported.csv"
+
+
+def fault_of(variant: Variant, motion: Motion, folder: Path, equipoise: Command) -> str:
+    """Return what is wrong with the program's answer, '' if it is right."""
+    path = variant.write(motion, folder)
+    return _fault(variant.answer, path, motion, folder, equipoise)
+
+
+def _fault(
+    answer: Answer, path: Path, motion: Motion, folder: Path, equipoise: Command
+) -> str:
+    if isinstance(answer, Refused):
+        return _not_refused(answer, path, folder, equipoise)
+    if isinstance(answer, Chosen):
+        return _no_choice(answer.reads, path, motion, folder, equipoise)
+    inspected = equipoise("inspect", path, *answer.options)
+    if answer.by == "inspect":
+        if inspected.code:
+            return f"inspect: {inspected}"
+        direct = read_recording(path, _options(answer))
+        fault = _unsaid(answer.said, inspected) or differs(direct, motion, answer)
+        return fault or _imported(answer, path, motion, folder, equipoise)
+    if not _says(answer.inspected, inspected):
+        return f"inspect does not say {answer.inspected!r}: {inspected}"
+    return _imported(answer, path, motion, folder, equipoise)
+
+
+def _imported(
+    answer: Reads, path: Path, motion: Motion, folder: Path, equipoise: Command, *more: str
+) -> str:
+    """Return what is wrong with what `import` writes, and with how `inspect` finds that."""
+    out = folder / OUT
+    printed = equipoise("import", path, "--testbed", "nanosat", "--out", out, *answer.options, *more)
+    if printed.code:
+        return f"import: {printed}"
+    fault = _unsaid(answer.said, printed) or differs(read_recording(out), motion, answer)
+    if fault:
+        return f"import: {fault}; {printed}"
+    inspected = equipoise("inspect", out)
+    return "" if not inspected.code else f"inspect of what was imported: {inspected}"
+
+
+def _no_choice(
+    reads: Reads, path: Path, motion: Motion, folder: Path, equipoise: Command
+) -> str:
+    """Return what is wrong where a person has to choose."""
+    printed = equipoise("import", path, "--testbed", "nanosat", "--out", folder / OUT)
+    count = re.search(r"choose one, --choose 1 to (\d+)", printed.out)
+    if printed.code != 1 or (folder / OUT).exists() or count is None:
+        return f"import does not offer a choice: {printed}"
+    faults = [
+        _imported(reads, path, motion, folder, equipoise, "--choose", str(k + 1))
+        for k in range(int(count[1]))
+    ]
+    return "" if "" in faults else f"no choice is right: {faults}"
+
+
+def _not_refused(answer: Refused, path: Path, folder: Path, equipoise: Command) -> str:
+    for command in answer.by:
+        out = () if command == "inspect" else ("--testbed", "nanosat", "--out", folder / OUT)
+        printed = equipoise(command, path, *out, *answer.options)
+        if not printed.code:
+            return f"{command} reads it: {printed}"
+        words = _plain(printed)
+        missing = [p for p in (answer.cause, answer.remedy) if not re.search(p, words)]
+        if missing:
+            return f"{command} does not say {missing}: {words}"
+        if (folder / OUT).exists():
+            return f"{command} writes"
+    return ""
+
+
+def differs(recording: Recording, motion: Motion, answer: Reads) -> str:
+    """Return in what a recording is not the motion, '' if it is."""
+    rows = np.delete(np.arange(len(motion.t)), answer.lost)
+    attitude, rate = recording.attitude, recording.rate
+    channels = {"attitude": attitude, "rate": rate}
+    present = tuple(name for name, channel in channels.items() if channel is not None)
+    if present != answer.sensors:
+        return f"sensors {present}"
+    for name, channel in channels.items():
+        if channel is not None and (fault := _other_rows(channel, motion.t[rows], answer.time)):
+            return f"{name}: {fault}"
+    axes = [EYE]
+    if attitude is not None:
+        allowed = LEVEL if answer.renamed else [EYE]
+        found = axes_of(attitude.values, motion.q[rows], answer.turn, allowed)
+        if not found:
+            turns = turn_between(attitude.values, motion.q[rows], EYE)
+            return f"other attitudes, by {departure(turns):.3g} rad; L {turns[0].round(3)}"
+        axes = [S for S, _ in found]
+    if rate is None:
+        return ""
+    off = min(float(np.abs(rate.values @ S - motion.w[rows]).max()) for S in axes)
+    return "" if off <= answer.rate else f"other rates, by {off:.3g} rad/s"
+
+
+def _other_rows(channel: Samples, t: Series1, within: float) -> str:
+    if len(channel) != len(t):
+        return f"{len(channel)} rows, not {len(t)}"
+    off = np.abs(channel.t - channel.t[0] - (t - t[0])).max()
+    return "" if off <= within else f"other times, by {off:.3g} s"
+
+
+def _options(answer: Reads) -> ReadOptions:
+    stated = dict(zip(answer.options[::2], answer.options[1::2], strict=True))
+    share = {"bad_rows": float(stated["--bad-rows"])} if "--bad-rows" in stated else {}
+    return ReadOptions(body=stated.get("--body"), **share)
+
+
+def _plain(printed: Printed) -> str:
+    return " ".join(f"{printed.out} {printed.err}".split())
+
+
+def _says(pattern: str, printed: Printed) -> bool:
+    return re.search(pattern, _plain(printed)) is not None
+
+
+def _unsaid(pattern: str, printed: Printed) -> str:
+    return "" if _says(pattern, printed) else f"not said: {pattern!r} in {_plain(printed)}"
