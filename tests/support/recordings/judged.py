@@ -9,7 +9,7 @@ import numpy as np
 
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.recording.recording_file import read_recording
-from equipoise.model.arrays import Series1
+from equipoise.model.arrays import Matrix3, Series1
 from equipoise.model.recording import Recording, Samples
 from tests.support.recordings.recorded_motion import Motion
 from tests.support.recordings.same_motion import EYE, LEVEL, axes_of, departure, turn_between
@@ -101,25 +101,35 @@ def _not_refused(answer: Refused, path: Path, folder: Path, equipoise: Command) 
 
 def differs(recording: Recording, motion: Motion, answer: Reads) -> str:
     """Return in what a recording is not the motion, '' if it is."""
-    rows = np.delete(np.arange(len(motion.t)), answer.lost)
     attitude, rate = recording.attitude, recording.rate
-    channels = {"attitude": attitude, "rate": rate}
-    present = tuple(name for name, channel in channels.items() if channel is not None)
+    present = tuple(
+        name for name, each in (("attitude", attitude), ("rate", rate)) if each is not None
+    )
     if present != answer.sensors:
         return f"sensors {present}"
-    for name, channel in channels.items():
-        if channel is not None and (fault := _other_rows(channel, motion.t[rows], answer.time)):
-            return f"{name}: {fault}"
-    axes = [EYE]
+    axes, fault = [EYE], ""
     if attitude is not None:
-        allowed = LEVEL if answer.renamed else [EYE]
-        found = axes_of(attitude.values, motion.q[rows], answer.turn, allowed)
-        if not found:
-            turns = turn_between(attitude.values, motion.q[rows], EYE)
-            return f"other attitudes, by {departure(turns):.3g} rad; L {turns[0].round(3)}"
-        axes = [S for S, _ in found]
-    if rate is None:
-        return ""
+        axes, fault = _axes(attitude, motion, answer)
+    return fault or ("" if rate is None else _other_rates(rate, motion, answer, axes))
+
+
+def _axes(attitude: Samples, motion: Motion, answer: Reads) -> tuple[list[Matrix3], str]:
+    """Return the names of axes under which the attitude is the motion's, or what is wrong."""
+    rows = np.delete(np.arange(len(motion.t)), answer.lost)
+    if fault := _other_rows(attitude, motion.t[rows], answer.time):
+        return [], f"attitude: {fault}"
+    allowed = LEVEL if answer.renamed else [EYE]
+    found = axes_of(attitude.values, motion.q[rows], answer.turn, allowed)
+    turns = turn_between(attitude.values, motion.q[rows], EYE)
+    other = f"other attitudes, by {departure(turns):.3g} rad; L {turns[0].round(3).tolist()}"
+    return [S for S, _ in found], "" if found else other
+
+
+def _other_rates(rate: Samples, motion: Motion, answer: Reads, axes: list[Matrix3]) -> str:
+    lost = answer.lost if answer.rate_lost is None else answer.rate_lost
+    rows = np.delete(np.arange(len(motion.t)), lost)
+    if fault := _other_rows(rate, motion.t[rows], answer.time):
+        return f"rate: {fault}"
     off = min(float(np.abs(rate.values @ S - motion.w[rows]).max()) for S in axes)
     return "" if off <= answer.rate else f"other rates, by {off:.3g} rad/s"
 

@@ -17,6 +17,7 @@ class Reads:
 
     by: str = "import"  # or 'inspect', where the header says what columns are
     lost: tuple[int, ...] = ()  # rows of the motion that are left out
+    rate_lost: tuple[int, ...] | None = None  # those of the gyro; None: the same
     said: str = ""  # pattern of what is printed
     inspected: str = "--columns"  # pattern of what `inspect` says where `import` is needed
     sensors: tuple[str, ...] = ("attitude", "rate")

@@ -18,13 +18,15 @@ from equipoise.assessment.hypotheses.clocks import ClockGuess, clock_guesses
 from equipoise.assessment.hypotheses.frames import FrameGuess, frame_guesses
 from equipoise.assessment.hypotheses.gyros import GyroGuess, gyro_guesses, spans_of, stem
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
-from equipoise.model.arrays import Bools
+from equipoise.io.recording.clock import longest_rising, wraps
+from equipoise.model.arrays import Ints, Series1, Series4
 
 CLOCKS = 3  # that are tried (chosen)
 DOUBTED = 1.0  # doubt beyond the best clock's, from which a clock is not tried (chosen)
 UNUSUAL = 0.25  # doubt beyond the best clock's, from which a unit is out of the question (chosen)
 MOST_ROWS = 12_000  # rows that are compared; chosen: minutes of any sensor
 AGREES = 0.5  # misfit up to which a gyro agrees with an attitude (chosen)
+FEWEST = 10  # rows (chosen)
 BEST = 60  # assignments of a gyro that are kept of each attitude (chosen)
 SURE = 30.0  # by how much chi squared must differ for a reading to be worse (chosen)
 NEAR = 4.0  # by how much it may differ for what is usual to be preferred (chosen)
@@ -68,7 +70,8 @@ class TableReading:
     def doubt(self) -> float:
         """Return how unusual the reading is, for where the data decide nothing."""
         attitude, gyro = self.attitude, self.gyro
-        doubt = self.clock.doubt + STRANGE * (self.frame.body_up != "z" or self.frame.lab_up != "z")
+        doubt = self.clock.doubt
+        doubt += STRANGE * (self.frame.body_up != "z") + STRANGE * (self.frame.lab_up != "z")
         doubt += STRANGE * attitude.inverse + STRANGE * (attitude.scalar in (1, 2))
         doubt += NAMED * (not attitude.named_as_read) + STRANGE * (attitude.signs != (1, 1, 1))
         doubt += 0.1 * (attitude.sequence not in ("", "ZYX"))
@@ -176,13 +179,12 @@ def _of_attitude(
     guesses: tuple[AttitudeGuess, ...],
 ) -> Iterable[TableReading]:
     """Yield the readings in which given columns are the attitude."""
-    t = table.column(clock.column) * clock.factor
-    full = _usable(table, clock, columns)
-    if full.sum() < 10:
+    rows, t = _timed_rows(table, clock, attitude_of(table, guesses[0]))
+    if len(rows) < FEWEST:
         return
-    part = NumberTable(table.names, table.values[full][:MOST_ROWS], table.units)
+    part = NumberTable(table.names, table.values[rows], table.units)
     others = [n for n in table.names if n not in (*columns, clock.column)]
-    spans = spans_of(t[full][:MOST_ROWS], attitude_of(part, guesses[0]), part, others)
+    spans = spans_of(t, attitude_of(part, guesses[0]), part, others)
     norm = 0.0 if guesses[0].sequence else norm_sd(part, columns)
     integrals = spans.integrals()
     for guess in guesses:
@@ -196,11 +198,13 @@ def _of_attitude(
             yield TableReading(clock, guess, None, frame, norm)
 
 
-def _usable(table: NumberTable, clock: ClockGuess, columns: tuple[str, ...]) -> Bools:
-    values = np.stack([table.column(name) for name in columns], axis=1)
-    t = table.column(clock.column)
-    full = np.isfinite(values).all(axis=1) & np.isfinite(t)
-    rows = np.flatnonzero(full)
-    back = np.append(False, np.diff(t[rows]) <= 0)
-    full[rows[back]] = False
-    return full
+def _timed_rows(table: NumberTable, clock: ClockGuess, q: Series4) -> tuple[Ints, Series1]:
+    """Return the rows that have an attitude, without those out of order, and their times (s)."""
+    counted = table.column(clock.column) * clock.factor
+    rows = np.flatnonzero(np.isfinite(q).all(axis=1) & np.isfinite(counted))[:MOST_ROWS]
+    t = counted[rows]
+    for place, length in wraps(t, clock.factor):
+        t[place:] += length
+    kept = longest_rising(t) if (np.diff(t) < 0).any() else np.arange(len(t))
+    kept = kept[np.append(True, np.diff(t[kept]) > 0)[: len(kept)]]
+    return rows[kept], t[kept]
