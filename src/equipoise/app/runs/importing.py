@@ -17,6 +17,7 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.columns.text_times import FORMATS, with_times_as_numbers
 from equipoise.io.recording.recording_file import read_table, recording_from
+from equipoise.io.toml.units import KINDS
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -57,8 +58,9 @@ class Imported:
 
     def columns(self, reading: TableReading, up: str) -> ColumnMap:
         """Return a reading as a column map."""
-        if reading is self.by_header and self.known is not None:
-            return self.known  # which knows of masses and devices too
+        known = self.known
+        if known is not None and reading is self.by_header and _stands(reading, known, up):
+            return known  # which knows of masses and devices too
         keys = self.map_keys(reading, up)
         return column_map_of(MapFile.model_validate(keys), self.source)
 
@@ -92,6 +94,8 @@ def _by_header(table: Table, options: ReadOptions) -> ColumnMap | None:
     try:
         return detect(table.names, table.source, options.body)
     except InputError:
+        if options.body is not None:
+            raise
         return None
 
 
@@ -129,6 +133,12 @@ def _agrees(reading: TableReading, known: ColumnMap) -> bool:
     if known.quaternion is not None:
         return known.quaternion.names == attitude.ordered
     return known.euler is not None and set(known.euler.columns.names) == set(attitude.columns)
+
+
+def _stands(reading: TableReading, known: ColumnMap, up: str) -> bool:
+    """Say whether the platform's axis ``up`` stands upright by a header, as by a reading."""
+    standing = _signed(known.body["xyz".index(up[-1])], -1 if up.startswith("-") else 1)
+    return any(frame.is_up(known.lab_up, standing) for frame in reading.frames)
 
 
 def _numbers(table: Table) -> tuple[NumberTable, dict[str, str]]:
@@ -200,7 +210,7 @@ def _rate_keys(reading: TableReading, body: list[str]) -> dict[str, Any]:
     assert gyro is not None  # the caller has seen it
     axes = [_signed(axis, gyro.signs["xyz".index(axis[-1])]) for axis in body]
     keys: dict[str, Any] = {"columns": list(gyro.columns)}
-    if gyro.unit in ("rad/s", "deg/s", "mrad/s", "rpm"):
+    if gyro.unit in KINDS["rate"]:
         keys["unit"] = gyro.unit
     else:
         keys |= {"unit": "rad/s", "factor": float(f"{gyro.factor:.6g}")}

@@ -1,7 +1,7 @@
 """Every whole reading of a table, compared: the likeliest, and those that the data leave alike."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -43,8 +43,14 @@ class TableReading:
     clock: ClockGuess
     attitude: AttitudeGuess
     gyro: GyroGuess | None
-    frame: FrameGuess
+    frames: tuple[FrameGuess, ...]  # the likeliest first
     norm_sd: float = 0.0  # of the quaternions' lengths about one
+    in_laboratory: bool = False  # rates about axes of the laboratory explain the same more plainly
+
+    @property
+    def frame(self) -> FrameGuess:
+        """Return what points up."""
+        return self.frames[0]
 
     @property
     def has_names(self) -> bool:
@@ -65,6 +71,17 @@ class TableReading:
             return True
         axes = np.eye(3)[list(self.gyro.order)] * np.array(self.gyro.signs)[:, None]
         return bool(np.linalg.det(axes) > 0)
+
+    @property
+    def against_laboratory(self) -> bool:
+        """Say whether plain rates about axes of the laboratory are read as of the body, reversed.
+
+        Of the opposite attitude they are those about the body's axes, with all signs changed.
+        """
+        attitude, gyro = self.attitude, self.gyro
+        if gyro is None or not attitude.inverse or attitude.scalar in (1, 2):
+            return False
+        return gyro.order == (0, 1, 2) and gyro.signs == (-1, -1, -1)
 
     @property
     def doubt(self) -> float:
@@ -103,6 +120,7 @@ def ranked(table: NumberTable) -> Ranked:
     others = [r for r in readings if _excess(r, best) >= SURE]
     alike = _with_known_units(alike)
     decided = len(alike) == 1 or _is_usual(alike[0], alike[1], best)
+    decided = decided and not alike[0].in_laboratory
     return Ranked(tuple(alike[:SHOWN]), min(others, key=_misfit, default=None), decided)
 
 
@@ -147,10 +165,15 @@ def _different(readings: list[TableReading]) -> list[TableReading]:
     A quaternion in another order, of the other direction, is the same motion with other axes, which
     the order of the gyro then undoes.
     """
-    kept: dict[tuple[object, ...], TableReading] = {}
+    alike: dict[tuple[object, ...], list[TableReading]] = {}
     for reading in sorted(readings, key=lambda r: r.doubt):
-        kept.setdefault(_motion(reading), reading)
-    return list(kept.values())
+        alike.setdefault(_motion(reading), []).append(reading)
+    return [_first(same) for same in alike.values()]
+
+
+def _first(same: list[TableReading]) -> TableReading:
+    """Return the first of readings of one motion, and whether another explanation is as plain."""
+    return replace(same[0], in_laboratory=any(reading.against_laboratory for reading in same))
 
 
 def _motion(reading: TableReading) -> tuple[object, ...]:
@@ -189,13 +212,13 @@ def _of_attitude(
     integrals = spans.integrals()
     for guess in guesses:
         q = attitude_of(part, guess)
-        frame = frame_guesses(q)[0]
+        frames = tuple(frame_guesses(q))
         gyros = gyro_guesses(spans.turns(q), integrals)
         agreeing = [gyro for gyro in gyros[:BEST] if gyro.misfit < AGREES]
         for gyro in agreeing:
-            yield TableReading(clock, guess, gyro, frame, norm)
+            yield TableReading(clock, guess, gyro, frames, norm)
         if not agreeing:
-            yield TableReading(clock, guess, None, frame, norm)
+            yield TableReading(clock, guess, None, frames, norm)
 
 
 def _timed_rows(table: NumberTable, clock: ClockGuess, q: Series4) -> tuple[Ints, Series1]:
