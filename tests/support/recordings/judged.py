@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from equipoise.model.arrays import Matrix3, Series1
 from equipoise.model.recording import Recording, Samples
 from tests.support.recordings.recorded_motion import Motion
 from tests.support.recordings.same_motion import EYE, LEVEL, axes_of, departure, turn_between
-from tests.support.recordings.variant import Answer, Chosen, Reads, Refused, Variant
+from tests.support.recordings.variant import Chosen, Reads, Refused, Variant
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,73 +30,76 @@ Command = Callable[..., Printed]
 OUT = "imported.csv"
 
 
-def fault_of(variant: Variant, motion: Motion, folder: Path, equipoise: Command) -> str:
+@dataclass(frozen=True, slots=True)
+class Desk:
+    """Where a person works."""
+
+    motion: Motion
+    folder: Path
+    equipoise: Command
+    whole: bool = True  # what was imported is inspected too
+
+    def imported(self, path: Path, *options: str) -> Printed:
+        """Return what `import` prints for a testbed whose z is up."""
+        out = ("--testbed", "nanosat", "--out", self.folder / OUT)
+        return self.equipoise("import", path, *out, *options)
+
+
+def fault_of(variant: Variant, desk: Desk) -> str:
     """Return what is wrong with the program's answer, '' if it is right."""
-    path = variant.write(motion, folder)
-    return _fault(variant.answer, path, motion, folder, equipoise)
-
-
-def _fault(
-    answer: Answer, path: Path, motion: Motion, folder: Path, equipoise: Command
-) -> str:
+    path, answer = variant.write(desk.motion, desk.folder), variant.answer
     if isinstance(answer, Refused):
-        return _not_refused(answer, path, folder, equipoise)
+        return _not_refused(answer, path, desk)
     if isinstance(answer, Chosen):
-        return _no_choice(answer.reads, path, motion, folder, equipoise)
-    inspected = equipoise("inspect", path, *answer.options)
+        return _no_choice(answer.reads, path, desk)
     if answer.by == "inspect":
-        if inspected.code:
-            return f"inspect: {inspected}"
-        direct = read_recording(path, _options(answer))
-        fault = _unsaid(answer.said, inspected) or differs(direct, motion, answer)
-        return fault or _imported(answer, path, motion, folder, equipoise)
+        return _not_inspected(answer, path, desk) or _not_imported(answer, path, desk)
+    inspected = desk.equipoise("inspect", path, *answer.options)
     if not _says(answer.inspected, inspected):
         return f"inspect does not say {answer.inspected!r}: {inspected}"
-    return _imported(answer, path, motion, folder, equipoise)
+    return _not_imported(answer, path, desk)
 
 
-def _imported(
-    answer: Reads, path: Path, motion: Motion, folder: Path, equipoise: Command, *more: str
-) -> str:
+def _not_inspected(answer: Reads, path: Path, desk: Desk) -> str:
+    inspected = desk.equipoise("inspect", path, *answer.options)
+    if inspected.code:
+        return f"inspect: {inspected}"
+    read = read_recording(path, _options(answer))
+    return _unsaid(answer.said, inspected) or differs(read, desk.motion, answer)
+
+
+def _not_imported(answer: Reads, path: Path, desk: Desk, *more: str) -> str:
     """Return what is wrong with what `import` writes, and with how `inspect` finds that."""
-    out = folder / OUT
-    printed = equipoise("import", path, "--testbed", "nanosat", "--out", out, *answer.options, *more)
+    printed = desk.imported(path, *answer.options, *more)
     if printed.code:
         return f"import: {printed}"
-    fault = _unsaid(answer.said, printed) or differs(read_recording(out), motion, answer)
+    recording = read_recording(desk.folder / OUT)
+    fault = _unsaid(answer.said, printed) or differs(recording, desk.motion, answer)
     if fault:
         return f"import: {fault}; {printed}"
-    inspected = equipoise("inspect", out)
+    inspected = desk.equipoise("inspect", desk.folder / OUT) if desk.whole else printed
     return "" if not inspected.code else f"inspect of what was imported: {inspected}"
 
 
-def _no_choice(
-    reads: Reads, path: Path, motion: Motion, folder: Path, equipoise: Command
-) -> str:
+def _no_choice(reads: Reads, path: Path, desk: Desk) -> str:
     """Return what is wrong where a person has to choose."""
-    printed = equipoise("import", path, "--testbed", "nanosat", "--out", folder / OUT)
+    printed = desk.imported(path)
     count = re.search(r"choose one, --choose 1 to (\d+)", printed.out)
-    if printed.code != 1 or (folder / OUT).exists() or count is None:
+    if printed.code != 1 or (desk.folder / OUT).exists() or count is None:
         return f"import does not offer a choice: {printed}"
-    faults = [
-        _imported(reads, path, motion, folder, equipoise, "--choose", str(k + 1))
-        for k in range(int(count[1]))
-    ]
+    numbers = map(str, range(1, int(count[1]) + 1))
+    faults = [_not_imported(reads, path, desk, "--choose", number) for number in numbers]
     return "" if "" in faults else f"no choice is right: {faults}"
 
 
-def _not_refused(answer: Refused, path: Path, folder: Path, equipoise: Command) -> str:
+def _not_refused(answer: Refused, path: Path, desk: Desk) -> str:
     for command in answer.by:
-        out = () if command == "inspect" else ("--testbed", "nanosat", "--out", folder / OUT)
-        printed = equipoise(command, path, *out, *answer.options)
-        if not printed.code:
-            return f"{command} reads it: {printed}"
+        run = desk.imported if command == "import" else partial(desk.equipoise, command)
+        printed = run(path, *answer.options)
         words = _plain(printed)
         missing = [p for p in (answer.cause, answer.remedy) if not re.search(p, words)]
-        if missing:
-            return f"{command} does not say {missing}: {words}"
-        if (folder / OUT).exists():
-            return f"{command} writes"
+        if not printed.code or missing or (desk.folder / OUT).exists():
+            return f"{command} ends with {printed.code} and does not say {missing}: {words}"
     return ""
 
 

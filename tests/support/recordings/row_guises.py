@@ -102,3 +102,13 @@ def words_in_one_cell(motion: Motion, folder: Path) -> Path:
     cells = {k: rows[k + 1].split(",") for k in SOME}
     bad = {k: ",".join([c[0], c[1], "ERR", *c[3:]]) for k, c in cells.items()}
     return saved(folder, changed(rows, bad))
+
+
+@answered(Reads("inspect", lost=SOME, time=5e-7, said="23 rows without a time"))
+def one_of_two_columns_of_the_time_blank(motion: Motion, folder: Path) -> Path:
+    ms = np.round(1e3 * motion.t)
+    ns = ms % 1000 * 1e6
+    ns[list(SOME)] = np.nan
+    stamp = {"/imu/header/stamp/sec": ms // 1000, "/imu/header/stamp/nanosec": ns}
+    rest = {name: column for name, column in ours(motion, ROS).items() if name != "__time"}
+    return saved(folder, text(stamp | rest))

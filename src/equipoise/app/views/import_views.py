@@ -108,8 +108,9 @@ def assumed_line(reading: TableReading) -> str:
     lab, body = reading.frame.lab_up, reading.frame.body_up
     other = (_opposite(lab), _opposite(body))
     return (
-        f"taken for granted: {lab} and {body} point up, not down as in tables of flight (NED); "
-        f'there lab_up = "{other[0]}" and a body with "{other[1]}" up in the map (--write-map).'
+        f"taken for granted: {lab} of the laboratory points up. In tables of flight (NED) it "
+        f'points down: there a map (--write-map) has lab_up = "{other[0]}" and a body whose upright '
+        f'axis is "{other[1]}".'
     )
 
 

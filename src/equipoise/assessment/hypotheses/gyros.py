@@ -147,7 +147,7 @@ def known_factor(measured: float) -> tuple[float, str]:
     return measured, ""
 
 
-def _means(t: Series1, values: Series1, starts: np.ndarray, lag: int) -> Series1:
+def _means(t: Series1, values: Series1, starts: Ints, lag: int) -> Floats:
     """Return the mean of a column over each span, by trapezoids."""
     good = np.isfinite(values)
     if not good.all():

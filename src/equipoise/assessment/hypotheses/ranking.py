@@ -221,7 +221,7 @@ def _of_attitude(
             yield TableReading(clock, guess, None, frames, norm)
 
 
-def _timed_rows(table: NumberTable, clock: ClockGuess, q: Series4) -> tuple[Ints, Series1]:
+def _timed_rows(table: NumberTable, clock: ClockGuess, q: Series4) -> tuple[Ints, Floats]:
     """Return the rows that have an attitude, without those out of order, and their times (s)."""
     counted = table.column(clock.column) * clock.factor
     rows = np.flatnonzero(np.isfinite(q).all(axis=1) & np.isfinite(counted))[:MOST_ROWS]
