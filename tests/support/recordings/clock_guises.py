@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 
-from equipoise.model.arrays import Series1
 from tests.support.recordings.recorded_motion import Motion
 from tests.support.recordings.variant import Reads, Refused, answered
 from tests.support.recordings.written_tables import (
@@ -25,14 +24,12 @@ COARSE = 6e-3  # s: stamps to the hundredth
 TWICE = tuple(range(99, 2400, 50))
 
 
-def since_1970(motion: Motion, folder: Path, clock: str, per_s: int) -> Path:
-    """Write dates as whole numbers of a unit, of seconds with six decimals."""
-    head, *rows = lines(columns(motion, clock))
+def since_1970(motion: Motion, folder: Path, clock: str, decimals: int) -> Path:
+    """Write dates in digits: a double would lose some. None of decimals: seconds with six."""
     stamps = [round(1e3 * t) for t in motion.t.tolist()]
-    dates = [f"{START + k // 1000}{k % 1000 * (per_s // 1000):0{len(str(per_s)) - 1}d}"
-             if per_s > 1 else f"{START + k // 1000}.{k % 1000:03d}000" for k in stamps]  # fmt: skip
-    body = [f"{d},{row.split(',', 1)[1]}" for d, row in zip(dates, rows, strict=True)]
-    return saved(folder, "\n".join([head, *body]))
+    point, zeros = ("", decimals - 3) if decimals else (".", 3)
+    dates = [f"{START + k // 1000}{point}{k % 1000:03d}{'0' * zeros}" for k in stamps]
+    return stamped(motion, folder, clock, dates)
 
 
 def stamped(motion: Motion, folder: Path, clock: str, stamps: list[str]) -> Path:
@@ -78,22 +75,22 @@ def midnight(motion: Motion, folder: Path) -> Path:
 
 @answered(Reads(time=DOUBLE, said="The clock starts at 1714745500.000 s"))
 def date_in_s(motion: Motion, folder: Path) -> Path:
-    return since_1970(motion, folder, "timestamp", 1)
+    return since_1970(motion, folder, "timestamp", 0)
 
 
 @answered(Reads(time=DOUBLE))
 def date_in_ms(motion: Motion, folder: Path) -> Path:
-    return since_1970(motion, folder, "timestamp", 10**3)
+    return since_1970(motion, folder, "timestamp", 3)
 
 
 @answered(Reads(time=DOUBLE))
 def date_in_us(motion: Motion, folder: Path) -> Path:
-    return since_1970(motion, folder, "stamp", 10**6)
+    return since_1970(motion, folder, "stamp", 6)
 
 
 @answered(Reads(time=DOUBLE))
 def date_in_ns(motion: Motion, folder: Path) -> Path:
-    return since_1970(motion, folder, "c0", 10**9)
+    return since_1970(motion, folder, "c0", 9)
 
 
 @answered(Reads(said="clock starts at 2024-05-03.14:11:40"))
@@ -161,7 +158,10 @@ def no_unit(motion: Motion, folder: Path) -> Path:
 @answered(Reads("inspect", time=DOUBLE))
 def seconds_and_nanoseconds(motion: Motion, folder: Path) -> Path:
     ms = np.round(1e3 * motion.t)
-    stamp = {"/imu/header/stamp/sec": START + ms // 1000, "/imu/header/stamp/nanosec": ms % 1000 * 1e6}
+    stamp = {
+        "/imu/header/stamp/sec": START + ms // 1000,
+        "/imu/header/stamp/nanosec": ms % 1000 * 1e6,
+    }
     rest = {name: column for name, column in ours(motion, ROS).items() if name != "__time"}
     return saved(folder, text(stamp | rest))
 
@@ -171,4 +171,3 @@ def ticks_of_100_ns(motion: Motion, folder: Path) -> Path:
     """A date of .NET: none of the units of a clock."""
     ticks = (621_355_968_000_000_000 + START * 10**7) + np.round(1e7 * motion.t).astype(np.int64)
     return stamped(motion, folder, "Ticks", [str(k) for k in ticks.tolist()])
-

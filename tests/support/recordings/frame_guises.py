@@ -7,10 +7,10 @@ from scipy.spatial.transform import Rotation
 
 from equipoise.maths.attitude import conjugate
 from equipoise.model.arrays import Floats, Matrix3, Series3, Series4
-from tests.oracle.mujoco_bench import product, rotation
+from tests.oracle.mujoco_bench import product
 from tests.support.recordings.motive_export import y_up
 from tests.support.recordings.recorded_motion import Motion
-from tests.support.recordings.variant import Chosen, Reads, Refused, answered
+from tests.support.recordings.variant import Reads, Refused, answered
 from tests.support.recordings.written_tables import ROS, columns, named, saved, text
 
 UPSIDE_DOWN = np.diag([1.0, -1.0, -1.0])  # of FLU to FRD, and of a laboratory with z up to z down
@@ -155,7 +155,7 @@ def signs_of_quaternions_at_random(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(columns(motion, q=motion.q * signs[:, None])))
 
 
-@answered(Chosen(Reads(sensors=("attitude",))))
+@answered(Reads(sensors=("attitude",), said="this direction of the attitude alone"))
 def camera_alone(motion: Motion, folder: Path) -> Path:
     table = columns(motion, q=conjugate(motion.q))
     return saved(folder, text({name: table[name] for name in ("ms", "qw", "qx", "qy", "qz")}))

@@ -14,7 +14,7 @@ from equipoise.model.arrays import Matrix3, Series1
 from equipoise.model.recording import Recording, Samples
 from tests.support.recordings.recorded_motion import Motion
 from tests.support.recordings.same_motion import EYE, LEVEL, axes_of, departure, turn_between
-from tests.support.recordings.variant import Chosen, Reads, Refused, Variant
+from tests.support.recordings.variant import Reads, Refused, Variant
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +50,6 @@ def fault_of(variant: Variant, desk: Desk) -> str:
     path, answer = variant.write(desk.motion, desk.folder), variant.answer
     if isinstance(answer, Refused):
         return _not_refused(answer, path, desk)
-    if isinstance(answer, Chosen):
-        return _no_choice(answer.reads, path, desk)
     if answer.by == "inspect":
         return _not_inspected(answer, path, desk) or _not_imported(answer, path, desk)
     inspected = desk.equipoise("inspect", path, *answer.options)
@@ -68,9 +66,9 @@ def _not_inspected(answer: Reads, path: Path, desk: Desk) -> str:
     return _unsaid(answer.said, inspected) or differs(read, desk.motion, answer)
 
 
-def _not_imported(answer: Reads, path: Path, desk: Desk, *more: str) -> str:
+def _not_imported(answer: Reads, path: Path, desk: Desk) -> str:
     """Return what is wrong with what `import` writes, and with how `inspect` finds that."""
-    printed = desk.imported(path, *answer.options, *more)
+    printed = desk.imported(path, *answer.options)
     if printed.code:
         return f"import: {printed}"
     recording = read_recording(desk.folder / OUT)
@@ -79,17 +77,6 @@ def _not_imported(answer: Reads, path: Path, desk: Desk, *more: str) -> str:
         return f"import: {fault}; {printed}"
     inspected = desk.equipoise("inspect", desk.folder / OUT) if desk.whole else printed
     return "" if not inspected.code else f"inspect of what was imported: {inspected}"
-
-
-def _no_choice(reads: Reads, path: Path, desk: Desk) -> str:
-    """Return what is wrong where a person has to choose."""
-    printed = desk.imported(path)
-    count = re.search(r"choose one, --choose 1 to (\d+)", printed.out)
-    if printed.code != 1 or (desk.folder / OUT).exists() or count is None:
-        return f"import does not offer a choice: {printed}"
-    numbers = map(str, range(1, int(count[1]) + 1))
-    faults = [_not_imported(reads, path, desk, "--choose", number) for number in numbers]
-    return "" if "" in faults else f"no choice is right: {faults}"
 
 
 def _not_refused(answer: Refused, path: Path, desk: Desk) -> str:

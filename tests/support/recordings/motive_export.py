@@ -36,7 +36,7 @@ def motive_export(motion: Motion, bodies: tuple[str, ...]) -> str:
     still = f"0.000000,0.000000,0.000000,1.000000,{rest}," * (len(bodies) - 1)
     moving = zip(motion.t.tolist(), q[:, [1, 2, 3, 0]].tolist(), strict=True)
     rows = [
-        f"{k},{t:.6f},{still}" + "%.7f,%.7f,%.7f,%.7f," % tuple(turn) + rest
+        f"{k},{t:.6f},{still}" + "".join(f"{c:.7f}," for c in turn) + rest
         for k, (t, turn) in enumerate(moving)
     ]
     return "\n".join([*head, *rows, ""])

@@ -9,7 +9,7 @@ from equipoise.maths.attitude import conjugate
 from tests.support.mat_files import mat_5
 from tests.support.recordings.motive_export import motive_export
 from tests.support.recordings.recorded_motion import Motion
-from tests.support.recordings.variant import Chosen, Reads, Refused, answered
+from tests.support.recordings.variant import Reads, Refused, answered
 from tests.support.recordings.written_tables import (
     OURS,
     ROS,
@@ -45,7 +45,9 @@ def inverse_quaternion_with_gyro(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(named(ROS, values)))
 
 
-@answered(Reads("inspect", lost=NAN_ROWS, sensors=("attitude",), said="7 rows .* no number, line 9"))
+@answered(
+    Reads("inspect", lost=NAN_ROWS, sensors=("attitude",), said="7 rows .* no number, line 9")
+)
 def writetable_nan(motion: Motion, folder: Path) -> Path:
     rows = lines(named(OURS[:5], np.column_stack([motion.t, motion.q])))
     lost = {k: rows[k + 1].split(",")[0] + ",NaN" * 4 for k in NAN_ROWS}
@@ -137,7 +139,7 @@ def matrix_mat(motion: Motion, folder: Path) -> Path:
     return saved(folder, mat_5(variables), "run.mat")
 
 
-@answered(Chosen(Reads(sensors=("attitude",))))
+@answered(Reads(sensors=("attitude",), said="this direction of the attitude alone"))
 def struct_mat(motion: Motion, folder: Path) -> Path:
     table = named(("t", "qw", "qx", "qy", "qz"), np.column_stack([motion.t, motion.q]))
     return saved(folder, mat_5({"data": table}), "run.mat")

@@ -61,9 +61,11 @@ def a_camera_that_writes_zeros(motion: Motion, folder: Path) -> Path:
 
 
 @answered(Refused("NaN|neither attitude|no number|rows are faulty", "."))
-def a_camera_that_saw_nothing(motion: Motion, folder: Path) -> Path:
+def a_camera_without_a_row(motion: Motion, folder: Path) -> Path:
     rows = lines(ours(motion, ROS))
-    return saved(folder, "\n".join([rows[0], *(f"{r.split(',')[0]}{',NaN' * 7}" for r in rows[1:])]))
+    return saved(
+        folder, "\n".join([rows[0], *(f"{r.split(',')[0]}{',NaN' * 7}" for r in rows[1:])])
+    )
 
 
 @answered(Reads(lost=SOME, said="23 rows without a time"))

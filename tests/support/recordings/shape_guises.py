@@ -93,7 +93,9 @@ def utf_16_without_a_mark(motion: Motion, folder: Path) -> Path:
 @answered(Reads())
 def latin_1_with_a_degree_sign(motion: Motion, folder: Path) -> Path:
     head, *rows = lines(columns(motion))
-    return saved(folder, "\n".join([f"{head},T [°C]", *(f"{r},21.5" for r in rows)]).encode("latin-1"))
+    return saved(
+        folder, "\n".join([f"{head},T [°C]", *(f"{r},21.5" for r in rows)]).encode("latin-1")
+    )
 
 
 @answered(Reads())
@@ -129,7 +131,9 @@ def numbers_with_exponents_and_signs(motion: Motion, folder: Path) -> Path:
     return saved(folder, "\n".join([" ".join(table), *body]), "run.txt")
 
 
-@answered(Refused("qw:0|no column of numbers|neither|cells|columns", "table|--columns|header|column"))
+@answered(
+    Refused("qw:0|no column of numbers|neither|cells|columns", "table|--columns|header|column")
+)
 def names_before_each_number(motion: Motion, folder: Path) -> Path:
     """As a serial plotter takes it."""
     head, *rows = lines(columns(motion))

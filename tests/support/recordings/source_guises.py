@@ -14,6 +14,7 @@ from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import Writer as Writer2
 
 from equipoise.model.arrays import Series3, Series4
+from tests.support.byte_captures import telemetry
 from tests.support.excel_files import workbook
 from tests.support.flight_logs import START, Station, dataflash, logged
 from tests.support.mat_files import mat_5, mat_73
@@ -21,10 +22,9 @@ from tests.support.recordings.frame_guises import UPSIDE_DOWN, turned
 from tests.support.recordings.motive_export import motive_export
 from tests.support.recordings.recorded_motion import Motion
 from tests.support.recordings.reported_guises import transforms
-from tests.support.recordings.variant import Chosen, Reads, Refused, answered
+from tests.support.recordings.variant import Reads, Refused, answered
 from tests.support.recordings.written_tables import columns, lines, named, ours, saved, text
 from tests.support.sample_logs import IMU, ROS1, ROS2, TREE, reported
-from tests.support.byte_captures import telemetry
 
 SINGLE, SINGLE_RATE = 1e-6, 1e-7  # rad, rad/s: what single precision leaves
 ALONE = ("attitude",)
@@ -174,7 +174,7 @@ def gzip_cut_short(motion: Motion, folder: Path) -> Path:
     return saved(folder, gzip.compress(text(ours(motion)).encode())[:9000], "run.csv.gz")
 
 
-@answered(Chosen(Reads(sensors=ALONE)))
+@answered(Reads(sensors=ALONE))
 def camera_alone_in_a_sheet(motion: Motion, folder: Path) -> Path:
     rows = [list(row) for row in zip(motion.t.tolist(), *motion.q.T.tolist(), strict=True)]
     return saved(folder, workbook({"Log": [["t", "q0", "q1", "q2", "q3"], *rows]}), "run.xlsx")
@@ -182,4 +182,6 @@ def camera_alone_in_a_sheet(motion: Motion, folder: Path) -> Path:
 
 @answered(Refused("a PDF|no text|binary|PDF", "a recording"))
 def a_report_in_place_of_the_table(motion: Motion, folder: Path) -> Path:
-    return saved(folder, b"%PDF-1.7\n" + "\n".join(lines(named(("t",), motion.t[:, None]))).encode())
+    return saved(
+        folder, b"%PDF-1.7\n" + "\n".join(lines(named(("t",), motion.t[:, None]))).encode()
+    )

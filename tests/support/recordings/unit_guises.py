@@ -6,7 +6,7 @@ import numpy as np
 
 from equipoise.model.arrays import Floats
 from equipoise.model.units import DEG, MILLI, RPM
-from tests.support.recordings.frame_guises import ANGLES, PRINTED, angles
+from tests.support.recordings.frame_guises import PRINTED, angles
 from tests.support.recordings.recorded_motion import Motion
 from tests.support.recordings.variant import Reads, Refused, Variant, answered
 from tests.support.recordings.written_tables import columns, lines, named, saved, text

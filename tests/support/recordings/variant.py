@@ -1,7 +1,7 @@
 """A guise of a known motion as a file, and the right answer to it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
@@ -38,14 +38,7 @@ class Refused:
     options: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Chosen:
-    """The import ends with 1, and one of the readings that it offers is the motion."""
-
-    reads: Reads = field(default_factory=Reads)
-
-
-Answer = Reads | Refused | Chosen
+Answer = Reads | Refused
 
 
 @dataclass(frozen=True, slots=True)

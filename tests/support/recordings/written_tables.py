@@ -25,7 +25,7 @@ def saved(folder: Path, content: str | bytes, name: str = "run.csv") -> Path:
     return path
 
 
-def columns(  # noqa: PLR0913 - each is a part of the table
+def columns(  # noqa: PLR0913, PLR0917 - each is a part of the table
     motion: Motion,
     clock: str = "ms",
     t: Series1 | None = None,

@@ -122,6 +122,8 @@ def by_motion(found: Imported, testbed: Testbed, bad_rows: float) -> TableReadin
     recording = fitted(recording_from(found.table, columns, bad_rows), testbed)
     direction = direction_of(recording, testbed)
     return alike[int(direction.is_reversed)] if direction.is_sure else None
+
+
 def _with_one_clock(table: Table, columns: ColumnMap) -> tuple[Table, ColumnMap]:
     """Return a table whose time, the sum of several columns, is one column more, in s."""
     time = Numbers(read_time(table, columns))

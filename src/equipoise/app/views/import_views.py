@@ -109,8 +109,8 @@ def assumed_line(reading: TableReading) -> str:
     other = (_opposite(lab), _opposite(body))
     return (
         f"taken for granted: {lab} of the laboratory points up. In tables of flight (NED) it "
-        f'points down: there a map (--write-map) has lab_up = "{other[0]}" and a body whose upright '
-        f'axis is "{other[1]}".'
+        f'points down: there a map (--write-map) has lab_up = "{other[0]}", and a body whose '
+        f'upright axis is "{other[1]}".'
     )
 
 

@@ -31,7 +31,7 @@ SHEETS = (1 / 131, 1 / 65.5, 1 / 32.8, 1 / 16.4, 8.75e-3, 17.5e-3, 35e-3, 70e-3,
 KNOWN = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": MILLI, "mdeg/s": MILLI * DEG, "rpm": RPM} | {
     f"{sheet:.6g} deg/s a count": sheet * DEG for sheet in SHEETS
 }
-NEAR = 0.05  # by which a factor may miss a known one (chosen)
+NEAR = 0.04  # by which a factor may miss a known one (chosen: above the scale error of gyros)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -19,7 +19,7 @@ from equipoise.assessment.hypotheses.frames import FrameGuess, frame_guesses
 from equipoise.assessment.hypotheses.gyros import GyroGuess, gyro_guesses, spans_of, stem
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
 from equipoise.io.recording.clock import longest_rising, wraps
-from equipoise.model.arrays import Ints, Series1, Series4
+from equipoise.model.arrays import Floats, Ints, Series4
 
 CLOCKS = 3  # that are tried (chosen)
 DOUBTED = 1.0  # doubt beyond the best clock's, from which a clock is not tried (chosen)
