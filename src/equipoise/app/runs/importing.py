@@ -1,7 +1,7 @@
 """Which reading of an unknown table its numbers support, as a column map that reads it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +14,17 @@ from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.column_map_file import MapFile, column_map_of
 from equipoise.io.columns.dialects import detect
 from equipoise.io.columns.read_options import ReadOptions
-from equipoise.io.columns.table import Table
+from equipoise.io.columns.table import Numbers, Table
 from equipoise.io.columns.text_times import FORMATS, with_times_as_numbers
+from equipoise.io.recording.channels import read_time
 from equipoise.io.recording.recording_file import read_table, recording_from
+from equipoise.io.toml.units import KINDS
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.attitude_direction import direction_of
 
+AND = " and "  # between the names of columns whose sum is the time
 MOSTLY = 0.5  # share of a column's rows that must be numbers for it to be one of numbers (chosen)
 NEXT = {"x": "y", "y": "z", "z": "x"}  # axes in cyclic order
 
@@ -52,14 +55,21 @@ class Imported:
         return alike[0] if self.ranked.decided else self.by_header
 
     def map_keys(self, reading: TableReading, up: str) -> dict[str, Any]:
-        """Return a reading as a column map file has it; the platform's axis ``up`` stands."""
+        """Return a reading as a column map file has it; the platform's axis ``up`` stands.
+
+        InputError where the time is the sum of columns, which no such file says.
+        """
+        if reading.clock.column.count(AND):
+            found = f"a time in several columns ({reading.clock.column})"
+            raise InputError("--write-map", found, "--out, which writes the recording itself")
         return _map_keys(reading, up, self.formats)
 
     def columns(self, reading: TableReading, up: str) -> ColumnMap:
         """Return a reading as a column map."""
-        if reading is self.by_header and self.known is not None:
-            return self.known  # which knows of masses and devices too
-        keys = self.map_keys(reading, up)
+        known = self.known
+        if known is not None and reading is self.by_header and _stands(reading, known, up):
+            return known  # which knows of masses and devices too
+        keys = _map_keys(reading, up, self.formats)
         return column_map_of(MapFile.model_validate(keys), self.source)
 
 
@@ -68,10 +78,13 @@ def imported(file: str | Path, options: ReadOptions) -> Imported:
     table, known = read_table(file, options)
     if known is not None:
         return Imported(str(file), table, known, Ranked((), None, decided=False), {})
+    by_header = _by_header(table, options)
+    if by_header is not None and len(by_header.time) > 1:
+        table, by_header = _with_one_clock(table, by_header)
     numbers, formats = _numbers(table)
     if not numbers.names:
         raise InputError(str(file), "no column of numbers", "a table of a clock and of attitudes")
-    return Imported(str(file), table, _by_header(table, options), ranked(numbers), formats)
+    return Imported(str(file), table, by_header, ranked(numbers), formats)
 
 
 def map_to_start_from(names: Sequence[str]) -> str:
@@ -92,6 +105,8 @@ def _by_header(table: Table, options: ReadOptions) -> ColumnMap | None:
     try:
         return detect(table.names, table.source, options.body)
     except InputError:
+        if options.body is not None:
+            raise
         return None
 
 
@@ -107,6 +122,20 @@ def by_motion(found: Imported, testbed: Testbed, bad_rows: float) -> TableReadin
     recording = fitted(recording_from(found.table, columns, bad_rows), testbed)
     direction = direction_of(recording, testbed)
     return alike[int(direction.is_reversed)] if direction.is_sure else None
+
+
+def _with_one_clock(table: Table, columns: ColumnMap) -> tuple[Table, ColumnMap]:
+    """Return a table whose time, the sum of several columns, is one column more, in s."""
+    time = Numbers(read_time(table, columns))
+    parts = [name for part in columns.time for name in part.names]
+    clock = AND.join(parts)
+    whole = replace(
+        table,
+        names=(*table.names, clock),
+        column=lambda _, name: time if name == clock else table.numbers(name),
+        cell=lambda name, row: "" if name == clock else table.found(name, row).strip("'"),
+    )
+    return whole, replace(columns, time=(Columns((clock,)),))
 
 
 def axis_up(testbed: Testbed | None) -> str:
@@ -129,6 +158,12 @@ def _agrees(reading: TableReading, known: ColumnMap) -> bool:
     if known.quaternion is not None:
         return known.quaternion.names == attitude.ordered
     return known.euler is not None and set(known.euler.columns.names) == set(attitude.columns)
+
+
+def _stands(reading: TableReading, known: ColumnMap, up: str) -> bool:
+    """Say whether the platform's axis ``up`` stands upright by a header, as by a reading."""
+    standing = _signed(known.body["xyz".index(up[-1])], -1 if up.startswith("-") else 1)
+    return any(frame.is_up(known.lab_up, standing) for frame in reading.frames)
 
 
 def _numbers(table: Table) -> tuple[NumberTable, dict[str, str]]:
@@ -200,7 +235,7 @@ def _rate_keys(reading: TableReading, body: list[str]) -> dict[str, Any]:
     assert gyro is not None  # the caller has seen it
     axes = [_signed(axis, gyro.signs["xyz".index(axis[-1])]) for axis in body]
     keys: dict[str, Any] = {"columns": list(gyro.columns)}
-    if gyro.unit in ("rad/s", "deg/s", "mrad/s", "rpm"):
+    if gyro.unit in KINDS["rate"]:
         keys["unit"] = gyro.unit
     else:
         keys |= {"unit": "rad/s", "factor": float(f"{gyro.factor:.6g}")}

@@ -25,6 +25,7 @@ def import_blocks(
         blocks.append(Claim("The table is read as follows.", "good"))
         blocks += items(reading_lines(chosen), "plain")
         blocks += items(evidence_lines(chosen), "good")
+        blocks += items([assumed_line(chosen)], "quiet")
         if others := [r for r in ranked.alike if r is not chosen]:
             blocks.append(Heading("As good by the numbers, less usual"))
             blocks.append(Items(tuple(Item(_differs(r, chosen), "quiet") for r in others)))
@@ -43,6 +44,11 @@ def _undecided(ranked: Ranked) -> str:
             "--write-map writes a column map to start from, for you to fill in."
         )
     count = len(ranked.alike)
+    if count == 1:
+        return (
+            "The gyro may as well give rates about laboratory axes, for a quaternion that turns "
+            "the other way: turn such rates into body axes first, else take --choose 1."
+        )
     return f"The numbers leave {count} readings alike: choose one, --choose 1 to {count}."
 
 
@@ -95,6 +101,21 @@ def evidence_lines(reading: TableReading) -> list[str]:
         )
     tilt = degrees(reading.frame.tilt)
     return [*lines, f"gravity: the upright axis is {tilt:.2g} deg from the vertical (median)."]
+
+
+def assumed_line(reading: TableReading) -> str:
+    """Return what no number shows: a mirrored platform moves alike where down is up."""
+    lab, body = reading.frame.lab_up, reading.frame.body_up
+    other = (_opposite(lab), _opposite(body))
+    return (
+        f"taken for granted: {lab} of the laboratory points up. In tables of flight (NED) it "
+        f'points down: there a map (--write-map) has lab_up = "{other[0]}", and a body whose '
+        f'upright axis is "{other[1]}".'
+    )
+
+
+def _opposite(axis: str) -> str:
+    return axis[1:] if axis.startswith("-") else f"-{axis}"
 
 
 def _worse(reading: TableReading, best: TableReading) -> str:

@@ -27,6 +27,10 @@ class FrameGuess:
     body_up: str
     tilt: float  # rad, the median
 
+    def is_up(self, lab_axis: str, body_axis: str) -> bool:
+        """Say whether two axes are these."""
+        return (lab_axis, body_axis) == (self.lab_up, self.body_up)
+
 
 def frame_guesses(q: Series4) -> list[FrameGuess]:
     """Return the pairs of axes that may be up, the likeliest first; those much worse are absent."""

@@ -28,10 +28,10 @@ SIGNS = [(x, y, z) for x in (1, -1) for y in (1, -1) for z in (1, -1)]
 # What one count is, rad/s: the units in use, then data sheets of common gyros, deg/s a count.
 SHEETS = (1 / 131, 1 / 65.5, 1 / 32.8, 1 / 16.4, 8.75e-3, 17.5e-3, 35e-3, 70e-3, 1 / 14.375,
           1 / 16, 1 / 900)  # fmt: skip
-KNOWN = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": MILLI, "rpm": RPM} | {
+KNOWN = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": MILLI, "mdeg/s": MILLI * DEG, "rpm": RPM} | {
     f"{sheet:.6g} deg/s a count": sheet * DEG for sheet in SHEETS
 }
-NEAR = 0.05  # by which a factor may miss a known one (chosen)
+NEAR = 0.04  # by which a factor may miss a known one (chosen: above the scale error of gyros)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -147,7 +147,7 @@ def known_factor(measured: float) -> tuple[float, str]:
     return measured, ""
 
 
-def _means(t: Series1, values: Series1, starts: np.ndarray, lag: int) -> Series1:
+def _means(t: Series1, values: Series1, starts: Ints, lag: int) -> Floats:
     """Return the mean of a column over each span, by trapezoids."""
     good = np.isfinite(values)
     if not good.all():

@@ -1,7 +1,7 @@
 """Every whole reading of a table, compared: the likeliest, and those that the data leave alike."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,13 +18,15 @@ from equipoise.assessment.hypotheses.clocks import ClockGuess, clock_guesses
 from equipoise.assessment.hypotheses.frames import FrameGuess, frame_guesses
 from equipoise.assessment.hypotheses.gyros import GyroGuess, gyro_guesses, spans_of, stem
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
-from equipoise.model.arrays import Bools
+from equipoise.io.recording.clock import longest_rising, wraps
+from equipoise.model.arrays import Floats, Ints, Series4
 
 CLOCKS = 3  # that are tried (chosen)
 DOUBTED = 1.0  # doubt beyond the best clock's, from which a clock is not tried (chosen)
 UNUSUAL = 0.25  # doubt beyond the best clock's, from which a unit is out of the question (chosen)
 MOST_ROWS = 12_000  # rows that are compared; chosen: minutes of any sensor
 AGREES = 0.5  # misfit up to which a gyro agrees with an attitude (chosen)
+FEWEST = 10  # rows (chosen)
 BEST = 60  # assignments of a gyro that are kept of each attitude (chosen)
 SURE = 30.0  # by how much chi squared must differ for a reading to be worse (chosen)
 NEAR = 4.0  # by how much it may differ for what is usual to be preferred (chosen)
@@ -41,8 +43,14 @@ class TableReading:
     clock: ClockGuess
     attitude: AttitudeGuess
     gyro: GyroGuess | None
-    frame: FrameGuess
+    frames: tuple[FrameGuess, ...]  # the likeliest first
     norm_sd: float = 0.0  # of the quaternions' lengths about one
+    in_laboratory: bool = False  # rates about axes of the laboratory explain the same more plainly
+
+    @property
+    def frame(self) -> FrameGuess:
+        """Return what points up."""
+        return self.frames[0]
 
     @property
     def has_names(self) -> bool:
@@ -65,10 +73,22 @@ class TableReading:
         return bool(np.linalg.det(axes) > 0)
 
     @property
+    def against_laboratory(self) -> bool:
+        """Say whether plain rates about axes of the laboratory are read as of the body, reversed.
+
+        Of the opposite attitude they are those about the body's axes, with all signs changed.
+        """
+        attitude, gyro = self.attitude, self.gyro
+        if gyro is None or not attitude.inverse or attitude.scalar in (1, 2):
+            return False
+        return gyro.order == (0, 1, 2) and gyro.signs == (-1, -1, -1)
+
+    @property
     def doubt(self) -> float:
         """Return how unusual the reading is, for where the data decide nothing."""
         attitude, gyro = self.attitude, self.gyro
-        doubt = self.clock.doubt + STRANGE * (self.frame.body_up != "z" or self.frame.lab_up != "z")
+        doubt = self.clock.doubt
+        doubt += STRANGE * (self.frame.body_up != "z") + STRANGE * (self.frame.lab_up != "z")
         doubt += STRANGE * attitude.inverse + STRANGE * (attitude.scalar in (1, 2))
         doubt += NAMED * (not attitude.named_as_read) + STRANGE * (attitude.signs != (1, 1, 1))
         doubt += 0.1 * (attitude.sequence not in ("", "ZYX"))
@@ -100,6 +120,7 @@ def ranked(table: NumberTable) -> Ranked:
     others = [r for r in readings if _excess(r, best) >= SURE]
     alike = _with_known_units(alike)
     decided = len(alike) == 1 or _is_usual(alike[0], alike[1], best)
+    decided = decided and not alike[0].in_laboratory
     return Ranked(tuple(alike[:SHOWN]), min(others, key=_misfit, default=None), decided)
 
 
@@ -144,10 +165,15 @@ def _different(readings: list[TableReading]) -> list[TableReading]:
     A quaternion in another order, of the other direction, is the same motion with other axes, which
     the order of the gyro then undoes.
     """
-    kept: dict[tuple[object, ...], TableReading] = {}
+    alike: dict[tuple[object, ...], list[TableReading]] = {}
     for reading in sorted(readings, key=lambda r: r.doubt):
-        kept.setdefault(_motion(reading), reading)
-    return list(kept.values())
+        alike.setdefault(_motion(reading), []).append(reading)
+    return [_first(same) for same in alike.values()]
+
+
+def _first(same: list[TableReading]) -> TableReading:
+    """Return the first of readings of one motion, and whether another explanation is as plain."""
+    return replace(same[0], in_laboratory=any(reading.against_laboratory for reading in same))
 
 
 def _motion(reading: TableReading) -> tuple[object, ...]:
@@ -176,31 +202,32 @@ def _of_attitude(
     guesses: tuple[AttitudeGuess, ...],
 ) -> Iterable[TableReading]:
     """Yield the readings in which given columns are the attitude."""
-    t = table.column(clock.column) * clock.factor
-    full = _usable(table, clock, columns)
-    if full.sum() < 10:
+    rows, t = _timed_rows(table, clock, attitude_of(table, guesses[0]))
+    if len(rows) < FEWEST:
         return
-    part = NumberTable(table.names, table.values[full][:MOST_ROWS], table.units)
+    part = NumberTable(table.names, table.values[rows], table.units)
     others = [n for n in table.names if n not in (*columns, clock.column)]
-    spans = spans_of(t[full][:MOST_ROWS], attitude_of(part, guesses[0]), part, others)
+    spans = spans_of(t, attitude_of(part, guesses[0]), part, others)
     norm = 0.0 if guesses[0].sequence else norm_sd(part, columns)
     integrals = spans.integrals()
     for guess in guesses:
         q = attitude_of(part, guess)
-        frame = frame_guesses(q)[0]
+        frames = tuple(frame_guesses(q))
         gyros = gyro_guesses(spans.turns(q), integrals)
         agreeing = [gyro for gyro in gyros[:BEST] if gyro.misfit < AGREES]
         for gyro in agreeing:
-            yield TableReading(clock, guess, gyro, frame, norm)
+            yield TableReading(clock, guess, gyro, frames, norm)
         if not agreeing:
-            yield TableReading(clock, guess, None, frame, norm)
+            yield TableReading(clock, guess, None, frames, norm)
 
 
-def _usable(table: NumberTable, clock: ClockGuess, columns: tuple[str, ...]) -> Bools:
-    values = np.stack([table.column(name) for name in columns], axis=1)
-    t = table.column(clock.column)
-    full = np.isfinite(values).all(axis=1) & np.isfinite(t)
-    rows = np.flatnonzero(full)
-    back = np.append(False, np.diff(t[rows]) <= 0)
-    full[rows[back]] = False
-    return full
+def _timed_rows(table: NumberTable, clock: ClockGuess, q: Series4) -> tuple[Ints, Floats]:
+    """Return the rows that have an attitude, without those out of order, and their times (s)."""
+    counted = table.column(clock.column) * clock.factor
+    rows = np.flatnonzero(np.isfinite(q).all(axis=1) & np.isfinite(counted))[:MOST_ROWS]
+    t = counted[rows]
+    for place, length in wraps(t, clock.factor):
+        t[place:] += length
+    kept = longest_rising(t) if (np.diff(t) < 0).any() else np.arange(len(t))
+    kept = kept[np.append(True, np.diff(t[kept]) > 0)[: len(kept)]]
+    return rows[kept], t[kept]

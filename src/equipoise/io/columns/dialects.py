@@ -46,6 +46,8 @@ def detect(names: Names, source: str, body: str | None = None) -> ColumnMap:
     for dialect in DIALECTS.values():
         if dialect.marks(names):
             return dialect.columns(names, source, body)
+    if body is not None:
+        raise no_body(body, source)
     shown = ", ".join(filter(None, names[:8]))
     wanted = (
         f"columns of a known dialect ({', '.join(DIALECTS)}), or a column map (--columns); "

@@ -46,7 +46,8 @@ NAMED = 5  # columns that a note names; chosen: a screen
 
 def is_native(names: tuple[str, ...]) -> bool:
     """Say whether a header is ours, perhaps with a fault in it."""
-    return TIME in names or bool({*ATTITUDE, *RATE} & set(names))
+    meant = any(OURS.fullmatch(name) for name in names if name != TIME)
+    return (TIME in names and meant) or bool({*ATTITUDE, *RATE} & set(names))
 
 
 def native_map(names: tuple[str, ...], source: str) -> ColumnMap:

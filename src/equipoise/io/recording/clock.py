@@ -67,25 +67,29 @@ def _unwrapped(
     table: Table, columns: ColumnMap, time: Series1, timed: Ints
 ) -> tuple[Series1, Notes]:
     """Return a clock that goes on where its counter began anew."""
-    t = time[timed]
-    steps = np.diff(t)
-    ahead = steps[steps > 0]
-    back = np.flatnonzero(steps < 0)
-    if not len(back) or not len(ahead):
-        return time, ()
-    usual, unit = float(np.median(ahead)), float(np.min(columns.time[0].factor))
-    lengths = [2.0**bits * unit for bits in BITS] + list(PERIODS)
-    added = np.zeros(len(t))
-    notes: list[str] = []
-    for k in back.tolist():
-        fits = [length for length in lengths if 0 < steps[k] + length <= LATE * usual]
-        if fits:
-            added[k + 1 :] += fits[0]
-            place = table.place(int(timed[k + 1]))
-            notes.append(f"The clock began anew after {fits[0]:.9g} s, at {place}; taken as on.")
+    wrapped = wraps(time[timed], float(np.min(columns.time[0].factor)))
     whole = time.copy()
-    whole[timed] += added
+    notes: list[str] = []
+    for place, length in wrapped:
+        whole[timed[place:]] += length
+        where = table.place(int(timed[place]))
+        notes.append(f"The clock began anew after {length:.9g} s, at {where}; taken as on.")
     return whole, tuple(notes)
+
+
+def wraps(t: Series1, unit: float) -> list[tuple[int, float]]:
+    """Return where a clock (s, of a counter's ``unit``) began anew, and after how long (s)."""
+    steps = np.diff(t)
+    ahead, back = steps[steps > 0], np.flatnonzero(steps < 0)
+    if not len(back) or not len(ahead):
+        return []
+    late = LATE * float(np.median(ahead))
+    lengths = [2.0**bits * unit for bits in BITS] + list(PERIODS)
+    found: list[tuple[int, float]] = []
+    for k in back.tolist():
+        fits = [length for length in lengths if 0 < steps[k] + length <= late]
+        found += [(k + 1, length) for length in fits[:1]]
+    return found
 
 
 def _forward(table: Table, time: Series1, timed: Ints) -> tuple[Ints, tuple[FaultyRows, ...]]:

@@ -15,6 +15,7 @@ TO_SI = {
     "rad/s": 1.0,
     "deg/s": si.DEG,
     "mrad/s": si.MILLI,
+    "mdeg/s": si.MILLI * si.DEG,
     "rpm": si.RPM,
     "m": 1.0,
     "cm": si.CM,
@@ -50,7 +51,7 @@ TO_SI = {
 KINDS = {
     "time": ("s", "ms", "us", "ns", "min"),
     "angle": ("rad", "deg"),
-    "rate": ("rad/s", "deg/s", "mrad/s", "rpm"),
+    "rate": ("rad/s", "deg/s", "mrad/s", "mdeg/s", "rpm"),
     "length": ("m", "cm", "mm", "um"),
     "momentum": ("N m s", "mN m s"),
     "torque": ("N m", "mN m", "uN m"),
