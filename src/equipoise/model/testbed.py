@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from equipoise.model.arrays import Matrix3, Vector3
-from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
+from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors, nothing
 from equipoise.model.devices import (
     ControlMomentGyro,
     Device,
@@ -145,6 +145,8 @@ class Truth:
     gyro: GyroErrors = field(default_factory=GyroErrors)
     field_N: Vector3 | None = None  # T, laboratory axes; None: as the testbed has it
     drives: tuple[TrueDrive, ...] = ()
+    accelerometer_bias: Vector3 = field(default_factory=nothing)  # m/s^2
+    magnetometer_bias: Vector3 = field(default_factory=nothing)  # T
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

@@ -5,14 +5,8 @@ All are aligned with the body axes, as the gyro is: a column map turns what is m
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from equipoise.model.arrays import Vector3
-
-
-def at_centre() -> Vector3:
-    """Return the centre of rotation, m."""
-    return np.zeros(3)
+from equipoise.model.defects import nothing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,7 +16,7 @@ class Accelerometer:
     rate: float  # Hz
     noise: float  # m/s^2, one sd per axis and sample
     bias_sd: float  # m/s^2, how far its zero may be off
-    place: Vector3 = field(default_factory=at_centre)  # m, from P
+    place: Vector3 = field(default_factory=nothing)  # m, from P
     delay: float = 0.0  # s
 
 
