@@ -14,8 +14,8 @@ from tests.oracle.defects import Array
 
 def with_accelerometer(text: str, place: Array) -> str:
     """Return a model with a site and an accelerometer there (m, from P)."""
-    site = f'<site name="felt" pos="{" ".join(f"{x:.17g}" for x in place)}"/>'
-    sensor = '<sensor><accelerometer site="felt"/></sensor>'
+    site = f'<site name="load" pos="{" ".join(f"{x:.17g}" for x in place)}"/>'
+    sensor = '<sensor><accelerometer site="load"/></sensor>'
     text = text.replace('<joint name="bearing"', f'{site}<joint name="bearing"')
     return text.replace("</mujoco>", f"{sensor}</mujoco>")
 
@@ -45,8 +45,8 @@ def accelerometer(run: oracle.OracleRun, rate: float, place: Array) -> Samples:
 def vector(run: oracle.OracleRun, rate: float, vector_N: Array) -> Samples:
     """Return the rows of a sensor of a vector of the laboratory, in the vector's unit."""
     rows = oracle.every(run, rate)
-    seen = np.array([oracle.matrix(q).T @ vector_N for q in run.q[rows]])
-    return Samples(run.t[rows].copy(), seen)
+    given = np.array([oracle.matrix(q).T @ vector_N for q in run.q[rows]])
+    return Samples(run.t[rows].copy(), given)
 
 
 def noisy(rows: Samples, rng: np.random.Generator, noise: float, bias: Array) -> Samples:

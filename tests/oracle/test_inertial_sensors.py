@@ -16,7 +16,7 @@ from tests.oracle import mujoco_bench as oracle
 from tests.oracle.test_two_benches import angles
 
 SECONDS, PLACE, LAMP = 20.0, np.array([0.21, -0.13, 0.08]), np.array([0.6, 0.0, 0.8])
-LOW = -2e-3 * np.array([0.0, 0.0, 1.0])  # m: 1 rad/s of swing, so that w' p is felt
+LOW = -2e-3 * np.array([0.0, 0.0, 1.0])  # m: 1 rad/s of swing, so that w' p is load
 
 
 def spinning():
@@ -46,17 +46,17 @@ def test_both_accelerometers_feel_the_same():
     """Within 1e-5 m/s^2, of 0.3 m/s^2 that turning adds to gravity."""
     platform = spinning()
     run, twin = oracle.simulate(platform, (), SECONDS), simulated(platform)
-    felt = inertial_sensors.accelerometer(run, 100.0, PLACE)
-    np.testing.assert_allclose(twin.accelerometer.t, felt.t, atol=1e-12)
-    np.testing.assert_allclose(twin.accelerometer.values, felt.values, atol=1e-5)
+    load = inertial_sensors.accelerometer(run, 100.0, PLACE)
+    np.testing.assert_allclose(twin.accelerometer.t, load.t, atol=1e-12)
+    np.testing.assert_allclose(twin.accelerometer.values, load.values, atol=1e-5)
     at_centre = inertial_sensors.specific_force(run, np.zeros(3), oracle.every(run, 100.0))
-    assert np.abs(felt.values - at_centre).max() > 0.2
+    assert np.abs(load.values - at_centre).max() > 0.2
 
 
 def test_both_sun_sensors_point_at_the_lamp():
     platform = spinning()
     run, twin = oracle.simulate(platform, (), SECONDS), simulated(platform)
-    seen = inertial_sensors.vector(run, 5.0, LAMP)
-    np.testing.assert_allclose(twin.sun.t, seen.t, atol=1e-12)
-    np.testing.assert_allclose(twin.sun.values, seen.values, atol=2e-6)
+    given = inertial_sensors.vector(run, 5.0, LAMP)
+    np.testing.assert_allclose(twin.sun.t, given.t, atol=1e-12)
+    np.testing.assert_allclose(twin.sun.values, given.values, atol=2e-6)
     np.testing.assert_allclose(np.linalg.norm(twin.sun.values, axis=1), 1.0, atol=1e-12)

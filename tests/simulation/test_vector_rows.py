@@ -49,9 +49,9 @@ def test_a_magnetometer_and_a_sun_sensor_see_the_laboratory_turned(testbed):
 def test_bias_and_noise_are_as_stated(testbed):
     truth = {"accelerometer_bias": BIAS, "magnetometer_bias": OFF}
     rows = SimulatedBench(testbed(truth=truth, **EVERY), 0).read(30.0)
-    felt = rows.accelerometer.values - [0.0, 0.0, 9.81]
-    np.testing.assert_allclose(felt.mean(axis=0), BIAS, atol=1e-3)
-    np.testing.assert_allclose(felt.std(axis=0), 0.01, rtol=0.1)
+    load = rows.accelerometer.values - [0.0, 0.0, 9.81]
+    np.testing.assert_allclose(load.mean(axis=0), BIAS, atol=1e-3)
+    np.testing.assert_allclose(load.std(axis=0), 0.01, rtol=0.1)
     np.testing.assert_allclose(rows.field.values.mean(axis=0), FIELD + OFF, atol=3e-8)
     np.testing.assert_allclose(rows.sun.values.std(axis=0), 1e-3, rtol=0.2)
 

@@ -33,28 +33,28 @@ class VectorSensor:
 
 def vector_sensors(testbed: Testbed) -> tuple[VectorSensor, ...]:
     """Return the sensors of vectors that a testbed has, in the order of its attributes."""
-    felt, seen, turned, field = (
+    inertial, sun, magnetic, field = (
         testbed.accelerometer, testbed.sun, testbed.magnetometer, testbed.magnetic_field,
     )  # fmt: skip
     found: list[VectorSensor] = []
-    if felt is not None:
+    if inertial is not None:
         up = np.array([0.0, 0.0, testbed.gravity])
-        found.append(VectorSensor("accelerometer", felt.rate, felt.noise, felt.bias_sd, felt.delay,
-                                  up, felt.place))  # fmt: skip
-    if seen is not None:
-        found.append(VectorSensor("sun", seen.rate, seen.noise, 0.0, seen.delay, seen.direction_N,
+        found.append(VectorSensor("accelerometer", inertial.rate, inertial.noise, inertial.bias_sd, inertial.delay,
+                                  up, inertial.place))  # fmt: skip
+    if sun is not None:
+        found.append(VectorSensor("sun", sun.rate, sun.noise, 0.0, sun.delay, sun.direction_N,
                                   np.zeros(3)))  # fmt: skip
-    if turned is not None and field is not None:
-        found.append(VectorSensor("field", turned.rate, turned.noise, turned.bias_sd, turned.delay,
+    if magnetic is not None and field is not None:
+        found.append(VectorSensor("field", magnetic.rate, magnetic.noise, magnetic.bias_sd, magnetic.delay,
                                   field.field_N, np.zeros(3)))  # fmt: skip
     return tuple(found)
 
 
-def vectors_seen(sensor: VectorSensor, q: Series4, w: Series3, change: Series3) -> Series3:
+def vectors_in_body(sensor: VectorSensor, q: Series4, w: Series3, change: Series3) -> Series3:
     """Return what a sensor without bias and noise sees, (n, 3) SI.
 
     At attitudes q, rates w (rad/s) and ``change`` of the rates w' (rad/s^2).
     """
     turning = np.cross(change, sensor.place) + np.cross(w, np.cross(w, sensor.place))
-    seen: Series3 = sensor.vector_N @ to_matrix(q) + turning
-    return seen
+    found: Series3 = sensor.vector_N @ to_matrix(q) + turning
+    return found

@@ -69,7 +69,7 @@ from equipoise.simulation.touches import Noted, Touch, noted
 
 REPORTS = 20.0  # Hz, chosen: how often devices report where no sensor sets the pace
 A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
-SEEN = ("accelerometer", "sun", "field")  # channels of vectors; each has noise of its own
+VECTORS = ("accelerometer", "sun", "field")  # channels of vectors; each has noise of its own
 AT_ONCE = 1e-3  # s, chosen: a leg that begins so soon after another is the same way
 
 
@@ -95,7 +95,7 @@ class SimulatedBench:
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
         self._states_rng, self._field_rng = streams[6:8]
-        self._vector_rngs = dict[str, np.random.Generator](zip(SEEN, streams[8:], strict=True))
+        self._vector_rngs = dict[str, np.random.Generator](zip(VECTORS, streams[8:], strict=True))
         self._devices = started(testbed)
         self.testbed, self.seed = testbed, seed  # as stated; of all that is drawn
         self.platform = draw_truth(testbed, rng)
@@ -280,9 +280,9 @@ class SimulatedBench:
         if testbed.devices:
             found = self._with_devices(found, after)
         found = replace(found, field=self._magnetometer(t, path, after))
-        return replace(found, **{s.channel: self._seen(s, t, path, after) for s in self._vectors})
+        return replace(found, **{s.channel: self._vector(s, t, path, after) for s in self._vectors})
 
-    def _seen(self, sensor: VectorSensor, t: Series1, path: Path, after: float) -> Samples:
+    def _vector(self, sensor: VectorSensor, t: Series1, path: Path, after: float) -> Samples:
         """Return the rows of a sensor of a vector, stamped after a time (s)."""
         truth, stamps = self.platform.truth, samples(sensor.rate, after, self._time)
         at = np.searchsorted(t, sampled_at(sensor, stamps))

@@ -21,7 +21,7 @@ from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.model.arrays import Bools, Floats, Series1, Series3, Series4, Vector3
 from equipoise.model.defects import Gap
 from equipoise.model.testbed import AttitudeSensor, Gyro
-from equipoise.sensors.vector_sensors import VectorSensor, vectors_seen
+from equipoise.sensors.vector_sensors import VectorSensor, vectors_in_body
 from equipoise.simulation.clock import samples, tick
 
 Sensor = AttitudeSensor | Gyro | VectorSensor
@@ -89,5 +89,5 @@ def vector_rows(
     """Return measured vectors from attitudes (n, 1 or 3, 4) and rates (n, 1 or 3, 3) at samples."""
     still = np.zeros_like(w[:, 0])
     change = np.einsum("j,njk->nk", SLOPE, w) if w.shape[1] == len(SLOPE) else still
-    seen = vectors_seen(sensor, q[:, 0], w[:, 0], change)
-    return seen + bias + sensor.noise * rng.standard_normal(seen.shape)
+    vectors = vectors_in_body(sensor, q[:, 0], w[:, 0], change)
+    return vectors + bias + sensor.noise * rng.standard_normal(vectors.shape)
