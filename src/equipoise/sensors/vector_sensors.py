@@ -16,6 +16,9 @@ import numpy as np
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Series3, Series4, Vector3
 from equipoise.model.testbed import Testbed
+from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
+
+CHANNELS = ("accelerometer", "sun", "field")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,22 +35,27 @@ class VectorSensor:
 
 
 def vector_sensors(testbed: Testbed) -> tuple[VectorSensor, ...]:
-    """Return the sensors of vectors that a testbed has, in the order of its attributes."""
-    inertial, sun, magnetic, field = (
-        testbed.accelerometer, testbed.sun, testbed.magnetometer, testbed.magnetic_field,
-    )  # fmt: skip
-    found: list[VectorSensor] = []
+    """Return the sensors of vectors that a testbed has, in the order of ``CHANNELS``."""
+    inertial, sun, magnetic = testbed.accelerometer, testbed.sun, testbed.magnetometer
+    field, found, centre = testbed.magnetic_field, list[VectorSensor](), np.zeros(3)
     if inertial is not None:
-        up = np.array([0.0, 0.0, testbed.gravity])
-        found.append(VectorSensor("accelerometer", inertial.rate, inertial.noise, inertial.bias_sd, inertial.delay,
-                                  up, inertial.place))  # fmt: skip
+        up, place = np.array([0.0, 0.0, testbed.gravity]), inertial.place
+        found.append(_vector_sensor("accelerometer", inertial, inertial.bias_sd, up, place))
     if sun is not None:
-        found.append(VectorSensor("sun", sun.rate, sun.noise, 0.0, sun.delay, sun.direction_N,
-                                  np.zeros(3)))  # fmt: skip
+        found.append(_vector_sensor("sun", sun, 0.0, sun.direction_N, centre))
     if magnetic is not None and field is not None:
-        found.append(VectorSensor("field", magnetic.rate, magnetic.noise, magnetic.bias_sd, magnetic.delay,
-                                  field.field_N, np.zeros(3)))  # fmt: skip
+        found.append(_vector_sensor("field", magnetic, magnetic.bias_sd, field.field_N, centre))
     return tuple(found)
+
+
+def _vector_sensor(
+    channel: str,
+    sensor: Accelerometer | SunSensor | Magnetometer,
+    bias_sd: float,
+    vector_N: Vector3,
+    place: Vector3,
+) -> VectorSensor:
+    return VectorSensor(channel, sensor.rate, sensor.noise, bias_sd, sensor.delay, vector_N, place)
 
 
 def vectors_in_body(sensor: VectorSensor, q: Series4, w: Series3, change: Series3) -> Series3:

@@ -33,7 +33,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.model.torque_terms import TERMS
-from equipoise.sensors.vector_sensors import VectorSensor, vector_sensors
+from equipoise.sensors.vector_sensors import CHANNELS, VectorSensor, vector_sensors
 from equipoise.simulation import actuator
 from equipoise.simulation.camera_and_gyro import (
     Sensor,
@@ -69,7 +69,6 @@ from equipoise.simulation.touches import Noted, Touch, noted
 
 REPORTS = 20.0  # Hz, chosen: how often devices report where no sensor sets the pace
 A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
-VECTORS = ("accelerometer", "sun", "field")  # channels of vectors; each has noise of its own
 AT_ONCE = 1e-3  # s, chosen: a leg that begins so soon after another is the same way
 
 
@@ -95,7 +94,7 @@ class SimulatedBench:
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
         self._states_rng, self._field_rng = streams[6:8]
-        self._vector_rngs = dict[str, np.random.Generator](zip(VECTORS, streams[8:], strict=True))
+        self._vector_rngs = dict[str, np.random.Generator](zip(CHANNELS, streams[8:], strict=True))
         self._devices = started(testbed)
         self.testbed, self.seed = testbed, seed  # as stated; of all that is drawn
         self.platform = draw_truth(testbed, rng)

@@ -158,7 +158,7 @@ def test_two_boundaries_at_once():
 
 def test_a_point_is_kept_flat_and_found_again():
     """The order is that of the record's fields."""
-    numbers = np.arange(64.0)
+    numbers = np.arange(70.0)
     parts = unknowns_of(numbers)
     assert parts.flat.tolist() == numbers.tolist()
     assert (parts.q0[0], parts.w0[0], parts.six[0], parts.com[0]) == (0.0, 4.0, 7.0, 13.0)
