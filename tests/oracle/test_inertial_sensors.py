@@ -42,7 +42,7 @@ def simulated(platform):
     return SimulatedBench(bed, 0).read(SECONDS)
 
 
-def test_both_accelerometers_feel_the_same():
+def test_both_accelerometers_give_the_same():
     """Within 1e-5 m/s^2, of 0.3 m/s^2 that turning adds to gravity."""
     platform = spinning()
     run, twin = oracle.simulate(platform, (), SECONDS), simulated(platform)

@@ -162,7 +162,7 @@ def test_a_point_is_kept_flat_and_found_again():
     parts = unknowns_of(numbers)
     assert parts.flat.tolist() == numbers.tolist()
     assert (parts.q0[0], parts.w0[0], parts.six[0], parts.com[0]) == (0.0, 4.0, 7.0, 13.0)
-    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [60.0], 61.0)
+    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [66.0], 67.0)
 
 
 def test_names_units_and_coordinates_have_one_length():

@@ -93,10 +93,10 @@ def vectors_by_numpy(problem, point):
     R, w = to_matrix(motion.q[here]), motion.rate[here]
     turning = (motion.rate[after] - motion.rate[before]) / (line.t[after] - line.t[before])[:, None]
     k = observed.sensor
-    seen_N, p, bias = observed.vector_N[k], observed.place[k], np.zeros((len(k), 3))
+    vector_N, p, bias = observed.vector_N[k], observed.place[k], np.zeros((len(k), 3))
     for i, channel in enumerate(("accelerometer", "sun", "field")):
         bias[k == i] = OFF.get(channel, [0.0] * 3)
-    level = np.einsum("nji,nj->ni", R, seen_N)
+    level = np.einsum("nji,nj->ni", R, vector_N)
     return t, level + np.cross(turning, p) + np.cross(w, np.cross(w, p)) + bias
 
 
