@@ -210,10 +210,12 @@ def on_the_cameras_clock(t: Series1, testbed: Testbed, start: float) -> Series1:
 def vectors_of(recording: Recording, testbed: Testbed, t: Series1) -> Vectors:
     """Return the rows of sensors of vectors in order of time; ``t`` are the nodes (s).
 
-    Rows outside the span of camera and gyro are left out: the motion begins and ends with these.
+    They are on the gyro's clock: one computer on board stamps both. Rows outside the span of camera
+    and gyro are left out: the motion begins and ends with these.
     """
-    found = observed(recording, testbed)
-    times = np.concatenate([np.zeros(0), *(rows.t - each.delay for each, rows in found)])
+    found, start = observed(recording, testbed), recording.span[0]
+    late = np.concatenate([np.zeros(0), *(rows.t - each.delay for each, rows in found)])
+    times = on_the_cameras_clock(late, testbed, start)
     values = np.vstack([np.zeros((0, 3)), *(rows.values for _, rows in found)])
     of = np.repeat(np.arange(len(found)), [len(rows) for _, rows in found])
     order = np.argsort(times, kind="stable")
