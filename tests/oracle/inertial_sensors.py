@@ -20,26 +20,34 @@ def with_accelerometer(text: str, place: Array) -> str:
     return text.replace("</mujoco>", f"{sensor}</mujoco>")
 
 
-def specific_force(run: oracle.OracleRun, place: Array, rows: slice) -> Array:
-    """Return what an accelerometer at a place (m) feels in rows of a run, m/s^2, (n, 3).
+def specific_force(
+    run: oracle.OracleRun, place: Array, rows: slice, schedule: tuple[oracle.Ramp, ...] = ()
+) -> Array:
+    """Return what an accelerometer at a place (m) gives in rows of a run, m/s^2, (n, 3).
 
-    The masses are welded at home: it is for runs in which they do not move.
+    With a schedule the masses move as in the run; without, they are welded at home.
     """
-    text = oracle.model_text(run.platform, float(run.t[1] - run.t[0]), locked=True)
+    platform, locked = run.platform, not schedule
+    text = oracle.model_text(platform, float(run.t[1] - run.t[0]), locked)
     model = mujoco.MjModel.from_xml_string(with_accelerometer(text, place))
-    model.dof_damping[:3] = run.platform.viscous
-    data, found = mujoco.MjData(model), []
-    for q, w in zip(run.q[rows], run.rate[rows], strict=True):
-        data.qpos[:], data.qvel[:] = q, w
+    model.dof_damping[:3] = platform.viscous
+    data, found, free = mujoco.MjData(model), [], 0 if locked else len(platform.slides)
+    wanted = oracle.command(platform, schedule, run.t[rows])[:, :free]
+    at = np.hstack([run.q[rows], run.displacement[rows, :free]])
+    moving = np.hstack([run.rate[rows], run.velocity[rows, :free]])
+    for position, velocity, control in zip(at, moving, wanted, strict=True):
+        data.qpos[:], data.qvel[:], data.ctrl[:free] = position, velocity, control
         mujoco.mj_forward(model, data)
         found.append(data.sensordata.copy())
     return np.array(found)
 
 
-def accelerometer(run: oracle.OracleRun, rate: float, place: Array) -> Samples:
+def accelerometer(
+    run: oracle.OracleRun, rate: float, place: Array, schedule: tuple[oracle.Ramp, ...] = ()
+) -> Samples:
     """Return the rows of an accelerometer without noise, m/s^2."""
     rows = oracle.every(run, rate)
-    return Samples(run.t[rows].copy(), specific_force(run, place, rows))
+    return Samples(run.t[rows].copy(), specific_force(run, place, rows, schedule))
 
 
 def vector(run: oracle.OracleRun, rate: float, vector_N: Array) -> Samples:
