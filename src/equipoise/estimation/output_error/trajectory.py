@@ -1,18 +1,20 @@
 """Trajectory: the maximum-likelihood output-error fit, the reference estimator.
 
-    minimise  sum |log(q_pred^-1 q_meas)|^2 / sd_q^2 + sum |w_meas - w_pred - b|^2 / sd_w^2 + priors
+    minimise  sum |log(q_pred^-1 q_meas)|^2 / sd_q^2 + sum |w_meas - w_pred - b|^2 / sd_w^2
+              + sum |v_meas - v_pred - b_v|^2 / sd_v^2 + priors
 
-over first attitude and rate, J, com, torque coefficients, gyro bias, and where the masses really
-stop, through every known move in the record (Ivanov 2021 section 3 with errata I1-I6, I15: all
-about P, multiplicative residual, first attitude free, realised displacements as unknowns with
-their accuracy as prior). J moves in log-Cholesky coordinates and is always possible.
+(v: what an accelerometer, a sun sensor or a magnetometer gives) over first attitude and rate, J,
+com, torque coefficients, the sensors' biases, and where the masses really stop, through every known
+move in the record (Ivanov 2021 section 3 with errata I1-I6, I15: all about P, multiplicative
+residual, first attitude free, realised displacements as unknowns with their accuracy as prior).
+J moves in log-Cholesky coordinates and is always possible.
 
 Starts from the linear methods; where these are too wrong, the horizon grows (``growing_horizon``).
 Reaches the Cramer-Rao bound when the model holds; the outcome says when it does not.
 
 Cannot see: the common scale of J and com without a known move, stored momentum or held value; com
 along gravity without tilt; J_33 and products without spin about more than one axis; heading
-without a camera.
+without a camera, or a lamp or field beside gravity.
 """
 
 from dataclasses import dataclass, replace
