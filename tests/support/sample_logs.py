@@ -31,7 +31,7 @@ def record() -> Recording:
         Samples(t, q), Samples(t[::2], three[::2]), ("x1", "y1"), Samples(t[:3], three[:3, :2] / 9),
         Samples(t, three / 3), Samples(t, three / 5), ("wheel:x", "gimbal:a"),
         Samples(t, three[:, :2]), Samples(t, three * 1e-5), Samples(t[:2], 20.0 + three[:2, :1]),
-        Samples(t[:2], three[:2, :1]),
+        Samples(t[:2], three[:2, :1]), Samples(t, three * 9), Samples(t[1:4], three[1:4]),
     )  # fmt: skip
 
 

@@ -28,6 +28,7 @@ from equipoise.model.arrays import Floats, Ints, Nine, Six, Triple
 TURN, RATE, INERTIA, MOMENT, TORQUE, ERROR = 0, 1, 2, 3, 4, 5  # kinds of column
 LANES = 16  # columns in a block; with fewer the compiler (LLVM 20) does not vectorise
 BLOCK = 6 * LANES
+SPAN = 3 * LANES  # numbers in a block of three rows of sensitivities
 
 
 class Columns(NamedTuple):
@@ -74,6 +75,12 @@ def work_for(columns: int) -> Work:
 def place(column: int) -> int:
     """Return where the first row of a column is; its next rows follow LANES apart."""
     return column // LANES * BLOCK + column % LANES
+
+
+@part
+def spot(column: int) -> int:
+    """Return where the first of three rows of a column is, in blocks of three rows."""
+    return column // LANES * SPAN + column % LANES
 
 
 @part

@@ -1,7 +1,8 @@
 """Names and units of the errors of sensors.
 
-Each is one coefficient that a fit may seek beside the torques (``sensors.camera`` and
-``sensors.gyro`` have the equations). Groups are what a person asks for by name.
+Each is one coefficient that a fit may seek beside the torques (``sensors.camera``,
+``sensors.gyro`` and ``sensors.vector_sensors`` have the equations). Groups are what a person asks
+for by name.
 """
 
 from collections.abc import Iterable
@@ -16,9 +17,17 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "gyro_cross": ("gyro_xy", "gyro_xz", "gyro_yx", "gyro_yz", "gyro_zx", "gyro_zy"),
     GYRO_CLOCK: (GYRO_CLOCK,),
 }
-TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in group)
+# By channel; each is sought wherever its channel is used.
+BIASES: dict[str, tuple[str, ...]] = {
+    channel: tuple(f"{channel}_bias_{axis}" for axis in "xyz")
+    for channel in ("accelerometer", "field")
+}
+TERMS: tuple[str, ...] = tuple(
+    term for groups in (GROUPS, BIASES) for group in groups.values() for term in group
+)
 UNITS: dict[str, str] = {
     "plumb": "rad", "heading2": "rad", "heading3": "rad", "camera": "s", "gyro": "1",
+    "accelerometer": "m/s2", "field": "T",
 }  # fmt: skip
 
 

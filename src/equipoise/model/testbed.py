@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from equipoise.model.arrays import Matrix3, Vector3
-from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
+from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors, nothing
 from equipoise.model.devices import (
     ControlMomentGyro,
     Device,
@@ -24,6 +24,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.presentation import Shown
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.torque_terms import GROUPS
+from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 from equipoise.model.weights import Weight, WeightGrid
 
 SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
@@ -144,6 +145,8 @@ class Truth:
     gyro: GyroErrors = field(default_factory=GyroErrors)
     field_N: Vector3 | None = None  # T, laboratory axes; None: as the testbed has it
     drives: tuple[TrueDrive, ...] = ()
+    accelerometer_bias: Vector3 = field(default_factory=nothing)  # m/s^2
+    magnetometer_bias: Vector3 = field(default_factory=nothing)  # T
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -180,6 +183,9 @@ class Testbed(Shown):
     gravity_sd: float = 0.0  # -, relative, one sd; 0: exact
     momentum_sd: float = 0.0  # -, of momentum recorded as such, relative, one sd; 0: exact
     torque_sd: float = 0.0  # -, of torque recorded as such, relative, one sd; 0: exact
+    accelerometer: Accelerometer | None = None
+    sun: SunSensor | None = None
+    magnetometer: Magnetometer | None = None  # of ``magnetic_field``
 
     @property
     def weight(self) -> float:

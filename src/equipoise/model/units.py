@@ -7,6 +7,7 @@ import math
 
 CM, MM, UM = 1e-2, 1e-3, 1e-6  # m
 GRAM = 1e-3  # kg
+G0 = 9.80665  # m/s^2, standard gravity
 KG_CM, G_CM = 1e-2, 1e-5  # kg m
 MINUTE, MS, US, NS = 60.0, 1e-3, 1e-6, 1e-9  # s
 DEG = math.pi / 180  # rad; deg/s in rad/s

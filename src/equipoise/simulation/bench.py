@@ -33,6 +33,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.model.torque_terms import TERMS
+from equipoise.sensors.vector_sensors import CHANNELS, VectorSensor, vector_sensors
 from equipoise.simulation import actuator
 from equipoise.simulation.camera_and_gyro import (
     Sensor,
@@ -42,6 +43,7 @@ from equipoise.simulation.camera_and_gyro import (
     outside,
     sampled_at,
     samples_between,
+    vector_rows,
 )
 from equipoise.simulation.clock import multiples, samples, tick, tick_one
 from equipoise.simulation.devices import (
@@ -70,6 +72,14 @@ A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on whe
 AT_ONCE = 1e-3  # s, chosen: a leg that begins so soon after another is the same way
 
 
+def with_field(testbed: Testbed, field_N: Vector3 | None) -> Testbed:
+    """Return the testbed in the magnetic field (T, laboratory axes) that there really is."""
+    known = testbed.magnetic_field
+    if known is None or field_N is None:
+        return testbed
+    return replace(testbed, magnetic_field=replace(known, field_N=field_N))
+
+
 class SimulatedBench:
     """A bench made of equations; see ``model.bench.Bench``. ``platform`` is what it really is.
 
@@ -80,13 +90,16 @@ class SimulatedBench:
     def __init__(
         self, testbed: Testbed, seed: int, standing: Mapping[str, float] | None = None
     ) -> None:
-        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(8)]
+        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(11)]
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
-        self._states_rng, self._field_rng = streams[6:]
+        self._states_rng, self._field_rng = streams[6:8]
+        self._vector_rngs = dict[str, np.random.Generator](zip(CHANNELS, streams[8:], strict=True))
         self._devices = started(testbed)
         self.testbed, self.seed = testbed, seed  # as stated; of all that is drawn
         self.platform = draw_truth(testbed, rng)
+        self._vectors = vector_sensors(with_field(testbed, self.platform.field_N))
+        self._sensors = (testbed.attitude, testbed.gyro, *self._vectors)
         body, truth, masses = self.platform.body, self.platform.truth, self.platform.masses
         self._body = rigid_body(body, testbed.gravity, self.platform.torque)
         self._stop = stop_at(testbed.up, testbed.tilt_limit)
@@ -98,7 +111,7 @@ class SimulatedBench:
         self._track = actuator.tracked(self._travel)
         self._normals = np.zeros(len(masses))  # stop errors of legs, of one sd
         self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
-        self._lead = max(lead(testbed.attitude), lead(testbed.gyro))
+        self._lead = max(map(lead, self._sensors))
         self._time, self._read_until = 0.0, -1.0
         self._now = self._first_state()
         self._node, self._state = 0.0, self._now
@@ -218,9 +231,7 @@ class SimulatedBench:
         """Return the nodes from the one where the state is kept to now."""
         start, now = self._node, self._time
         self._noise = extended(self._noise, now, self._noise_rng)
-        observed = [
-            samples_between(s, start, now) for s in (self.testbed.attitude, self.testbed.gyro)
-        ]
+        observed = [samples_between(sensor, start, now) for sensor in self._sensors]
         turns = tick(self._track.t + self.platform.truth.mass_lag)
         others = [turns, self._happens, bends(self._devices, start, now)]
         others.append(multiples(grid_of(self.testbed), start, now))
@@ -267,7 +278,18 @@ class SimulatedBench:
         found = Recording(attitude, rate, names, masses, source=source)
         if testbed.devices:
             found = self._with_devices(found, after)
-        return replace(found, field=self._magnetometer(t, path, after))
+        found = replace(found, field=self._magnetometer(t, path, after))
+        return replace(found, **{s.channel: self._vector(s, t, path, after) for s in self._vectors})
+
+    def _vector(self, sensor: VectorSensor, t: Series1, path: Path, after: float) -> Samples:
+        """Return the rows of a sensor of a vector, stamped after a time (s)."""
+        truth, stamps = self.platform.truth, samples(sensor.rate, after, self._time)
+        at = np.searchsorted(t, sampled_at(sensor, stamps))
+        biases = {"accelerometer": truth.accelerometer_bias, "field": truth.magnetometer_bias}
+        bias, rng = biases.get(sensor.channel, np.zeros(3)), self._vector_rngs[sensor.channel]
+        rows = vector_rows(path.y[at, :4], path.rate[at], sensor, bias, rng)
+        kept = outside(stamps, truth.gaps)
+        return Samples(stamps[kept], rows[kept])
 
     def _magnetometer(self, t: Series1, path: Path, after: float) -> Samples | None:
         """Return the magnetometer's rows, at the attitude of the node at or before each stamp."""

@@ -83,6 +83,17 @@ def test_devices_and_a_magnetometer_are_declared_with_their_units(tmp_path) -> N
     np.testing.assert_allclose(recording.field.values, turned * 1e-9, rtol=1e-12)
 
 
+def test_an_accelerometer_and_a_sun_sensor_are_declared(tmp_path) -> None:
+    """Standard gravity in m/s2; a unit vector in axes of its own."""
+    triad = '[{}]\ncolumns = ["gx", "gy", "gz"]\nunit = "{}"\n'
+    axes = 'axes = ["y", "-x", "z"]\n'
+    added = triad.format("accelerometer", "g0") + triad.format("sun", "1") + axes
+    recording = read(tmp_path, MAP + added)
+    np.testing.assert_allclose(recording.accelerometer.values, 9.80665 * np.degrees(W), rtol=1e-12)
+    turned = np.degrees(W)[:, [1, 0, 2]] * [1, -1, 1]
+    np.testing.assert_allclose(recording.sun.values, turned, rtol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("kind", "unit", "words"),
     [("wheel", "N m", "rad/s"), ("jet", "rpm", "N m"), ("rotor", "rpm", "'wheel', 'gimbal'")],

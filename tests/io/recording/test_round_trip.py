@@ -63,6 +63,8 @@ def channels(draw: st.DrawFn) -> dict[str, Any]:
         "field": vectors(5e-5) if draw(st.booleans()) else None,
         "temperature": vectors(20.0, 1) if draw(st.booleans()) else None,
         "lamp": vectors(1.0, 1) if draw(st.booleans()) else None,
+        "accelerometer": vectors(9.8) if draw(st.booleans()) else None,
+        "sun": vectors(1.0) if draw(st.booleans()) else None,
     }
 
 

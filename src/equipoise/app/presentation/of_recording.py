@@ -24,6 +24,7 @@ UNITS = {
     "torque": "N m",
     "field": "T",
     "temperature": "degC",
+    "accelerometer": "m/s2",
 }
 PARTS = {
     "attitude": ("w", "x", "y", "z"),
@@ -33,6 +34,8 @@ PARTS = {
     "field": AXES,
     "temperature": ("air",),
     "lamp": ("power",),
+    "accelerometer": AXES,
+    "sun": AXES,
 }
 OF_DEVICES = {"wheel": "rad/s", "gimbal": "rad", "dipole": "A m2", "jet": "N m"}
 

@@ -101,8 +101,8 @@ def followed(model: RecordModel) -> RecordModel:
 
 def free_share(fit: Fitted, after: Smoothed) -> float:
     """Return the share of the rows that what was sought leaves free; a tenth at least."""
-    rows = 3 * (len(fit.at.left_q) + len(fit.at.left_w))
-    return max(1.0 - (freedom(fit, after) + fit.problem.layout.size) / rows, 0.1)
+    sought = freedom(fit, after) + fit.problem.layout.size
+    return max(1.0 - sought / fit.at.residuals, 0.1)
 
 
 def noise_factors(fit: Fitted, after: Smoothed) -> tuple[float, float]:

@@ -66,7 +66,7 @@ class Joint:
     @property
     def rows(self) -> int:
         """Return the number of residuals."""
-        return sum(r.fitted.at.left_q.size + r.fitted.at.left_w.size for r in self.records)
+        return sum(r.fitted.at.residuals for r in self.records)
 
 
 def without_private(record: Record, of_all: Floats) -> Floats:

@@ -2,17 +2,19 @@
 
 With a camera, at the camera's times: the attitude smoothed, the rate from the gyro (averaged over
 one camera period) or else from the attitude itself. With a gyro alone, at the gyro's times: the
-attitude is integrated from level, as a platform on an air bearing is within its tilt limit of it.
+attitude is integrated from level, as a platform on an air bearing is within its tilt limit of it,
+or from what sensors of vectors show (``vector_attitude``).
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.attitude import exponential, level, normalise
-from equipoise.maths.compiled import kernel
+from equipoise.estimation.motion.observed_vectors import observed
+from equipoise.estimation.motion.vector_attitude import attitude_by_vectors, integrate_rate
+from equipoise.maths.attitude import level
 from equipoise.maths.local_motion import half_window, local_motion
-from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
+from equipoise.model.arrays import Floats, Series1, Series3, Series4
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
@@ -24,24 +26,6 @@ class SampledMotion(NamedTuple):
     t: Series1
     q: Series4
     w: Series3
-
-
-@kernel
-def _integrate(q: Floats, half_turns: Floats) -> None:
-    for i in range(1, q.shape[0]):
-        a, b = q[i - 1], half_turns[i - 1]
-        q[i, 0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
-        q[i, 1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2]
-        q[i, 2] = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1]
-        q[i, 3] = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]
-
-
-def integrate_rate(t: Series1, w: Series3, q0: Quaternion) -> Series4:
-    """Return the attitudes that rates w (rad/s) lead to from q0."""
-    q = np.zeros((len(t), 4))
-    q[0] = q0
-    _integrate(q, exponential(0.5 * (w[1:] + w[:-1]) * np.diff(t)[:, None]))
-    return normalise(q)
 
 
 def averaged(t: Series1, values: Floats, at: Series1, width: float) -> Floats:
@@ -58,13 +42,15 @@ def sampled_motion(recording: Recording, testbed: Testbed) -> SampledMotion:
     attitude, rate = recording.attitude, recording.rate
     if attitude is None or len(attitude) < 4:
         assert rate is not None
-        t = measured_at(rate.t, testbed.gyro)
+        t, vectors = measured_at(rate.t, testbed.gyro), observed(recording, testbed)
+        if vectors:
+            return SampledMotion(t, *attitude_by_vectors(vectors, t, rate.values, testbed.gyro))
         return SampledMotion(t, integrate_rate(t, rate.values, level(testbed.up)), rate.values)
     t = measured_at(attitude.t, testbed.attitude)
     q, w = local_motion(t, attitude.values, half_window(t, attitude.values))
     if rate is not None and len(rate):
-        observed = measured_at(rate.t, testbed.gyro)
-        inside = (t >= observed[0]) & (t <= observed[-1])
+        rate_t = measured_at(rate.t, testbed.gyro)
+        inside = (t >= rate_t[0]) & (t <= rate_t[-1])
         period = float(np.median(np.diff(t)))
-        w = np.where(inside[:, None], averaged(observed, rate.values, t, period), w)
+        w = np.where(inside[:, None], averaged(rate_t, rate.values, t, period), w)
     return SampledMotion(t, q, w)

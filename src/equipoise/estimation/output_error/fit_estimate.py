@@ -58,8 +58,7 @@ def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
     """Return the statistics of what the model leaves; its jumps amount to ``jumped`` unknowns."""
     at, measurements = fitted.at, fitted.problem.observed
     left = at.left_q if len(at.left_q) else at.left_w
-    square = float(np.sum(at.left_q**2) + np.sum(at.left_w**2))
-    rows = at.left_q.size + at.left_w.size
+    square = float(np.sum(at.left_q**2) + np.sum(at.left_w**2) + np.sum(at.left_v**2))
 
     def rms(part: Floats, sd: float) -> float | None:
         return float(np.sqrt(np.mean(part**2))) * sd if part.size else None
@@ -68,7 +67,7 @@ def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
         rms(at.left_q, measurements.attitude_sd),
         rms(at.left_w, measurements.rate_sd),
         square,
-        max(round(rows - fitted.problem.layout.size - jumped), 1),
+        max(round(at.residuals - fitted.problem.layout.size - jumped), 1),
         lag_one(left),
         portmanteau(left),
         spectral_peak=spectral_peak(left),

@@ -46,6 +46,7 @@ from equipoise.model.arrays import Floats, Matrix3
 from equipoise.model.devices import Device
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.sensors.vector_sensors import CHANNELS as VECTORS
 
 STEP = 1e-3  # sd, chosen: so small that the quotient is a derivative, far above rounding
 AXES = np.eye(3)
@@ -139,25 +140,32 @@ def places_varied(recording: Recording, testbed: Testbed, part: float) -> Iterat
             yield Varied(f"position of mass {mass.name}", mass.accuracy, other, testbed)
 
 
-def clocks_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
-    """Yield the record's clock, and that of a gyro beside a camera."""
+def by_gyros_clock(recording: Recording, share: float) -> Recording:
+    """Return the recording with the clock of gyro and sensors of vectors slower by a share."""
     start, _ = recording.span
-    camera, gyro = recording.attitude, recording.rate
+    names = ("rate", *VECTORS)
+    late = {name: stretched(getattr(recording, name), start, share) for name in names}
+    return replace(recording, **late)
+
+
+def clocks_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
+    """Yield the record's clock, and that of a gyro beside a camera; vectors are on the gyro's."""
+    start, _ = recording.span
+    camera = recording.attitude
     first = testbed.gyro if camera is None else testbed.attitude
     if first is not None:
         share = part * first.clock_sd
+        kept = recording if camera is not None else by_gyros_clock(recording, share)
         yield Varied("clock", first.clock_sd, replace(
-            recording,
+            kept,
             attitude=stretched(camera, start, share),
-            rate=gyro if camera is not None else stretched(gyro, start, share),
             masses=stretched(recording.masses, start, share),
             momentum=stretched(recording.momentum, start, share),
             torque=stretched(recording.torque, start, share),
         ), testbed)  # fmt: skip
     if camera is not None and testbed.gyro is not None:
         gyro_clock = testbed.gyro.clock_sd
-        late = stretched(gyro, start, part * gyro_clock)
-        yield Varied(GYRO_CLOCK, gyro_clock, replace(recording, rate=late), testbed)
+        yield Varied(GYRO_CLOCK, gyro_clock, by_gyros_clock(recording, part * gyro_clock), testbed)
 
 
 def alone(testbed: Testbed, device: Device) -> Testbed:

@@ -14,10 +14,12 @@ from equipoise.dynamics import sensitivities
 from equipoise.dynamics.lamp_warmth import temperature_of
 from equipoise.dynamics.propagation import stacked
 from equipoise.dynamics.sensitivities import Columns
-from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
+from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, place, timeline
+from equipoise.estimation.motion.observed_vectors import bias_at, observed
 from equipoise.estimation.output_error.kernels.gauss_newton import Posed
 from equipoise.estimation.output_error.kernels.normal_equations import Measurements
 from equipoise.estimation.output_error.kernels.parts import parts_of
+from equipoise.estimation.output_error.kernels.vector_rows import Vectors
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump, cuts_of, inside
 from equipoise.estimation.parameters.fit_parameters import (
     CORE,
@@ -205,6 +207,36 @@ def on_the_cameras_clock(t: Series1, testbed: Testbed, start: float) -> Series1:
     return t - fast * (t - start) if fast else t
 
 
+def vectors_of(recording: Recording, testbed: Testbed, t: Series1) -> Vectors:
+    """Return the rows of sensors of vectors in order of time; ``t`` are the nodes (s).
+
+    They are on the gyro's clock: one computer on board stamps both. Rows outside the span of camera
+    and gyro are left out: the motion begins and ends with these.
+    """
+    found, start = observed(recording, testbed), recording.span[0]
+    late = np.concatenate([np.zeros(0), *(rows.t - each.delay for each, rows in found)])
+    times = on_the_cameras_clock(late, testbed, start)
+    values = np.vstack([np.zeros((0, 3)), *(rows.values for _, rows in found)])
+    of = np.repeat(np.arange(len(found)), [len(rows) for _, rows in found])
+    order = np.argsort(times, kind="stable")
+    order = order[(times[order] >= t[0]) & (times[order] <= t[-1])]
+    sensors = [each for each, _ in found]
+    return Vectors(
+        np.ascontiguousarray(values[order]),
+        *place(t, times[order]),
+        of[order].astype(np.int64),
+        rows_of_three([each.vector_N for each in sensors]),
+        rows_of_three([each.place for each in sensors]),
+        np.array([each.noise for each in sensors], dtype=np.float64),
+        np.array([bias_at(each) for each in sensors], dtype=np.int64),
+    )
+
+
+def rows_of_three(vectors: list[Floats]) -> Floats:
+    """Return vectors as the rows of an array, also where there is none."""
+    return np.array(vectors, dtype=np.float64).reshape(-1, 3)
+
+
 def pose(
     recording: Recording,
     testbed: Testbed,
@@ -246,6 +278,7 @@ def pose(
         spread_of(testbed.gyro),
         forward_of(testbed.up),
         np.array(layout.sensor_index, dtype=np.int64),
+        vectors_of(recording, testbed, line.t),
     )
     maps = mass_maps(rails)
     columns = columns_of(layout)

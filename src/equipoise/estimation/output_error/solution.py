@@ -28,6 +28,12 @@ class Evaluation:
     descent: Floats  # b
     left_q: Series  # (n, 3) residuals in sd
     left_w: Series
+    left_v: Series  # of sensors of vectors
+
+    @property
+    def residuals(self) -> int:
+        """Return how many numbers are measured."""
+        return self.left_q.size + self.left_w.size + self.left_v.size
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,7 +66,7 @@ def settle(
         over = ended.evaluations < turn or done >= most
         if over or not problem.budget.allows(Stage.MOTION):
             break
-    at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w)
+    at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w, best.left_v)
     return Fitted(problem, unknowns_of(best.point), at, ended.converged, done,
                   best.pieces.jumps)  # fmt: skip
 
@@ -78,7 +84,7 @@ def evaluate(problem: Problem, point: Unknowns, jumps: Floats | None = None) -> 
 
 def chi_square_share(fit: Fitted) -> float:
     """Return twice the cost over the number of residuals."""
-    return 2 * fit.at.cost / (3 * (len(fit.at.left_q) + len(fit.at.left_w)))
+    return 2 * fit.at.cost / fit.at.residuals
 
 
 def finite_cost(cost: float) -> float:

@@ -1,18 +1,20 @@
 """Trajectory: the maximum-likelihood output-error fit, the reference estimator.
 
-    minimise  sum |log(q_pred^-1 q_meas)|^2 / sd_q^2 + sum |w_meas - w_pred - b|^2 / sd_w^2 + priors
+    minimise  sum |log(q_pred^-1 q_meas)|^2 / sd_q^2 + sum |w_meas - w_pred - b|^2 / sd_w^2
+              + sum |v_meas - v_pred - b_v|^2 / sd_v^2 + priors
 
-over first attitude and rate, J, com, torque coefficients, gyro bias, and where the masses really
-stop, through every known move in the record (Ivanov 2021 section 3 with errata I1-I6, I15: all
-about P, multiplicative residual, first attitude free, realised displacements as unknowns with
-their accuracy as prior). J moves in log-Cholesky coordinates and is always possible.
+(v: what an accelerometer, a sun sensor or a magnetometer gives) over first attitude and rate, J,
+com, torque coefficients, the sensors' biases, and where the masses really stop, through every known
+move in the record (Ivanov 2021 section 3 with errata I1-I6, I15: all about P, multiplicative
+residual, first attitude free, realised displacements as unknowns with their accuracy as prior).
+J moves in log-Cholesky coordinates and is always possible.
 
 Starts from the linear methods; where these are too wrong, the horizon grows (``growing_horizon``).
 Reaches the Cramer-Rao bound when the model holds; the outcome says when it does not.
 
 Cannot see: the common scale of J and com without a known move, stored momentum or held value; com
 along gravity without tilt; J_33 and products without spin about more than one axis; heading
-without a camera.
+without a camera, or a lamp or field beside gravity.
 """
 
 from dataclasses import dataclass, replace
@@ -20,6 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.actuators.mass_errors import MassErrors
+from equipoise.estimation.motion.observed_vectors import bias_terms
 from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.growing_horizon import (
@@ -51,6 +54,7 @@ from equipoise.estimation.output_error.solution import (
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, core_of
 from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.maths.attitude import exponential, multiply, to_matrix
+from equipoise.model import sensor_terms
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import BODY, INERTIA
@@ -83,12 +87,15 @@ class Params:
 
 def layout_of(recording: Recording, testbed: Testbed, params: Params) -> Layout:
     """Return the unknowns of a record; InputError if a held name is not among them."""
-    return layout_with(errors_of(recording, testbed), recording, params)
+    return layout_with(errors_of(recording, testbed), recording, testbed, params)
 
 
-def layout_with(errors: MassErrors, recording: Recording, params: Params) -> Layout:
+def layout_with(
+    errors: MassErrors, recording: Recording, testbed: Testbed, params: Params
+) -> Layout:
     """Return the unknowns of a record whose masses may be off in this way."""
-    layout = Layout(params.terms, errors.names, recording.rate is not None, params.sensor)
+    sensor = sensor_terms.among((*params.sensor, *bias_terms(recording, testbed)))
+    layout = Layout(params.terms, errors.names, recording.rate is not None, sensor)
     for name in params.hold:
         if name not in layout.names[6:15]:
             wanted = nearest(name, list(layout.names[6:15]))
@@ -131,7 +138,7 @@ def problem_of(
 ) -> Problem:
     """Return the least-squares problem of a record."""
     errors = errors_of(recording, testbed)
-    layout = layout_with(errors, recording, params)
+    layout = layout_with(errors, recording, testbed, params)
     scale_open = is_scale_open(recording, testbed, params)
     hold = held_names(recording, testbed, params)
     prior = prior_of(testbed, errors, layout, params.use_prior, hold, torque_anchor)
@@ -202,7 +209,8 @@ def upright(fit: Fitted) -> Fitted:
     A gyro sees torque m g com x n alone: com and n, both reversed, move the platform alike.
     """
     problem, q0 = fit.problem, fit.point.q0
-    if len(problem.observed.attitude) or to_matrix(q0)[2] @ problem.testbed.up > 0:
+    shown = len(problem.observed.attitude) + len(problem.observed.vectors.values) > 0
+    if shown or to_matrix(q0)[2] @ problem.testbed.up > 0:
         return fit
     turned = multiply(exponential(np.array([np.pi, 0.0, 0.0])), q0)
     found = settle_pinned(problem, replace(fit.point, q0=turned, com=-fit.point.com))

@@ -64,6 +64,8 @@ class ColumnMap:
     field: Columns | None = None
     temperature: Columns | None = None  # degC
     lamp: Columns | None = None  # of its full power
+    accelerometer: Columns | None = None
+    sun: Columns | None = None  # a unit vector, of body axes to a lamp
     lab_up: str = "z"  # the laboratory axis of the table that points up
     body: tuple[str, str, str] = ("x", "y", "z")  # our body axes in terms of the table's
     inverse: bool = False  # the attitude turns laboratory into body components

@@ -37,6 +37,12 @@ unit = "rpm"
 [field]
 columns = ["bx", "by", "bz"]        # a magnetometer's, body axes
 unit = "nT"
+[accelerometer]
+columns = ["ax", "ay", "az"]        # at rest +1 g along what points up
+unit = "g0"                         # standard gravity
+[sun]
+columns = ["sx", "sy", "sz"]        # to the lamp, body axes
+unit = "1"
 """
 
 from pathlib import Path
@@ -140,6 +146,8 @@ class MapFile(Table):
     field: TriadTable | None = None
     temperature: TemperatureTable | None = None
     lamp: LampTable | None = None
+    accelerometer: TriadTable | None = None
+    sun: TriadTable | None = None
 
 
 def read_column_map(path: str | Path) -> ColumnMap:
@@ -168,6 +176,8 @@ def column_map_of(table: MapFile, source: str) -> ColumnMap:
         field=_triad(table.field, "magnetic", f"{source}: field"),
         temperature=None if table.temperature is None else Columns((table.temperature.column,)),
         lamp=None if table.lamp is None else Columns((table.lamp.column,)),
+        accelerometer=_triad(table.accelerometer, "acceleration", f"{source}: accelerometer"),
+        sun=_triad(table.sun, "share", f"{source}: sun"),
         lab_up=table.lab_up,
         body=body,
         inverse=table.attitude is not None and table.attitude.turns == "laboratory to body",

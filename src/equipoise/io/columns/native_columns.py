@@ -2,7 +2,7 @@
 
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_mm  h_x_N_m_s ...  torque_x_N_m ...
     wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  jet_<name>_N_m  field_x_uT ...
-    temperature_degC  lamp_power
+    temperature_degC  lamp_power  accel_x_m_s2 ...  sun_x ...
 
 One table for all channels; a cell is blank where its channel has no row at that time.
 """
@@ -28,6 +28,8 @@ TORQUE = ("torque_x_N_m", "torque_y_N_m", "torque_z_N_m")
 FIELD = ("field_x_uT", "field_y_uT", "field_z_uT")
 TEMPERATURE = ("temperature_degC",)
 LAMP = ("lamp_power",)  # of its full power: 0 off, 1 on
+ACCELEROMETER = ("accel_x_m_s2", "accel_y_m_s2", "accel_z_m_s2")
+SUN = ("sun_x", "sun_y", "sun_z")  # of a unit vector
 # Of a column map: the columns, and what one of their unit is in SI.
 GROUPS = {
     "quaternion": (ATTITUDE, 1.0),
@@ -37,10 +39,14 @@ GROUPS = {
     "field": (FIELD, UT),
     "temperature": (TEMPERATURE, 1.0),
     "lamp": (LAMP, 1.0),
+    "accelerometer": (ACCELEROMETER, 1.0),
+    "sun": (SUN, 1.0),
 }
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
-OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature|lamp)_.*")
+OURS = re.compile(
+    r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature|lamp|accel|sun)_.*"
+)
 NAMED = 5  # columns that a note names; chosen: a screen
 
 
@@ -98,6 +104,8 @@ def native_columns(recording: Recording) -> dict[str, Series1]:
         (recording.field, FIELD, 1 / UT),
         (recording.temperature, TEMPERATURE, 1.0),
         (recording.lamp, LAMP, 1.0),
+        (recording.accelerometer, ACCELEROMETER, 1.0),
+        (recording.sun, SUN, 1.0),
     )
     present = [(c, names, unit) for c, names, unit in channels if c is not None and len(c)]
     if not present:

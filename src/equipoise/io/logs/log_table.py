@@ -4,7 +4,7 @@ Columns have the names of our own files, all in SI:
 
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_m  h_x_N_m_s ...  torque_x_N_m ...
     wheel_<name>_rad_s  gimbal_<name>_rad  dipole_<name>_A_m2  jet_<name>_N_m  field_x_T ...
-    temperature_degC  lamp_power
+    temperature_degC  lamp_power  accel_x_m_s2 ...  sun_x ...
 
 so that a column map can name them, and what tables need set right is set right once, for all.
 """
@@ -18,10 +18,12 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import si_column
 from equipoise.io.columns.native_columns import (
+    ACCELEROMETER,
     ATTITUDE,
     LAMP,
     MOMENTUM,
     RATE,
+    SUN,
     TEMPERATURE,
     TIME,
     TORQUE,
@@ -35,7 +37,8 @@ from equipoise.model.errors import InputError
 FIELD = ("field_x_T", "field_y_T", "field_z_T")
 LARGEST = 1e150  # chosen: its square is still a double; no sensor's number
 GROUPS = {"rate": RATE, "momentum": MOMENTUM, "torque": TORQUE, "field": FIELD,
-         "temperature": TEMPERATURE, "lamp": LAMP}  # fmt: skip
+          "temperature": TEMPERATURE, "lamp": LAMP, "accelerometer": ACCELEROMETER,
+          "sun": SUN}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ Topics, all times in ns on the clock of the log (UTC of a real bench):
     /scene      foxglove.SceneUpdate: what stands in these frames (``foxglove_scene``)
     /log        foxglove.Log: the sentence of each event, for people
     /events     JSON {"kind", "sentence", "data"}: the same events, for programs
-    /rate /masses /momentum /torque /devices /field /temperature /lamp
+    /rate /masses /momentum /torque /devices /field /temperature /lamp /accelerometer /sun
                 JSON, one number for each name, the unit at its end: {"x_rad_s": 0.01, ...}
 
 Every message in JSON begins with its time, {"timestamp": {"sec", "nsec"}}, as those of Foxglove do.
@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from equipoise.io.columns.device_columns import si_column
-from equipoise.io.columns.native_columns import LAMP, TEMPERATURE
+from equipoise.io.columns.native_columns import ACCELEROMETER, LAMP, SUN, TEMPERATURE
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.foxglove_scene import BODY, LABORATORY, Scene
@@ -38,7 +38,9 @@ Opener = Callable[[str, str, Any, Mapping[str, str]], Send]
 START = "start"  # kind of the event with which the platform is free
 LEVELS = {"interlock": "Error", "fault": "Warning"}  # how loud a kind of event is; else Info
 XYZ_UNITS = {"rate": "rad_s", "momentum": "N_m_s", "torque": "N_m", "field": "T"}
-SINGLE = {"temperature": TEMPERATURE, "lamp": LAMP}
+AS_IN_TABLES = {
+    "temperature": TEMPERATURE, "lamp": LAMP, "accelerometer": ACCELEROMETER, "sun": SUN,
+}  # fmt: skip
 
 
 def topic_of(channel: str) -> str:
@@ -52,8 +54,8 @@ def value_names(channel: str, names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(f"{name}_m" for name in names)
     if channel == "devices":
         return tuple(map(si_column, names))
-    if channel in SINGLE:
-        return SINGLE[channel]
+    if channel in AS_IN_TABLES:
+        return AS_IN_TABLES[channel]
     return tuple(f"{axis}_{XYZ_UNITS[channel]}" for axis in "xyz")
 
 

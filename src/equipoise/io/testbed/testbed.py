@@ -10,6 +10,7 @@ from equipoise.io.testbed import devices
 from equipoise.io.testbed.hardware import Hardware, check_moved_masses
 from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
 from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
+from equipoise.io.testbed.vector_sensors import Accelerometer, Magnetometer, Sun
 from equipoise.io.testbed.weights import Weight, WeightGrid, check_weights
 from equipoise.io.toml.key_types import ITSELF, Holds, NotNegative, Positive, Table
 from equipoise.io.toml.table_records import RecordTable, check_names, record_of
@@ -81,6 +82,9 @@ class Sensors(Table):
 
     attitude: Attitude | None = None
     gyro: Gyro | None = None
+    accelerometer: Accelerometer | None = None
+    sun: Sun | None = None
+    magnetometer: Magnetometer | None = None
 
 
 class Disturbance(Table):
@@ -153,8 +157,16 @@ def _check(file: TestbedFile, source: str) -> None:
 
 
 def _check_field(file: TestbedFile, source: str) -> None:
+    magnetometer = file.sensor.magnetometer
     if file.magnetic_field is not None:
+        if magnetometer is not None and file.magnetic_field.noise_uT is not None:
+            found = "a magnetometer, and noise_uT in [magnetic_field] as well"
+            raise InputError(f"{source}: sensor.magnetometer", found, "its noise in one place")
         return
+    if magnetometer is not None:
+        wanted = "a table [magnetic_field] with field_uT, in laboratory axes"
+        where = f"{source}: sensor.magnetometer"
+        raise InputError(where, "a magnetometer but no magnetic field", wanted)
     if file.magnetorquer:
         wanted = "a table [magnetic_field] with field_uT, in laboratory axes"
         raise InputError(f"{source}: magnetorquer", "magnetorquers but no magnetic field", wanted)

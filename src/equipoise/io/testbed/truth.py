@@ -135,6 +135,8 @@ class Truth(RecordTable):
     noise_torque_N_m: NotNegative = 0.0
     noise_correlation_s: Positive = 30.0
     gyro_bias_deg_s: Triple = Field(ZEROS)
+    accelerometer_bias_m_s2: Triple = Field(ZEROS)
+    magnetometer_bias_uT: Triple = Field(ZEROS)
     gyro_scale_percent: Annotated[Triple, Holds("gyro.scale")] = Field(
         ZEROS, description="each axis reads so much more"
     )

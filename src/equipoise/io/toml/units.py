@@ -38,6 +38,10 @@ TO_SI = {
     "g": si.GRAM,
     "mg": si.GRAM * si.MILLI,
     "m/s2": 1.0,
+    "mm/s2": si.MM,
+    "g0": si.G0,
+    "mg0": si.G0 * si.MILLI,
+    "1": 1.0,
     "m/s": 1.0,
     "cm/s": si.CM,
     "mm/s": si.MM,
@@ -57,6 +61,8 @@ KINDS = {
     "torque": ("N m", "mN m", "uN m"),
     "dipole": ("A m2", "mA m2"),
     "magnetic": ("T", "mT", "uT", "nT"),
+    "acceleration": ("m/s2", "mm/s2", "g0", "mg0"),
+    "share": ("1",),
 }
 AS_SAID = ("rpm", "percent", "deg", "rad", "kg", "um", "uT", "mm", "cm", "ms", "mg", "g", "m", "s",
            "K")  # fmt: skip

@@ -44,6 +44,7 @@ SENSOR = np.concatenate([
     [0.02],  # s of delay
     [0.010, -0.020, 0.015, 0.004, -0.006, 0.008, -0.003, 0.005, 0.007],
     [0.0],  # of the gyro's clock: see below
+    np.zeros(6),  # biases of sensors of vectors: see ``test_vector_rows``
 ])  # fmt: skip
 
 
@@ -264,7 +265,12 @@ def ticking():
     record = replace(noisy(recording(20.0, gyro=20.0), 3, BIAS), temperature=WARMING)
     bed = platform(gyro=True)
     point = somewhere(0, AHEAD * (np.arange(N_SENSOR) == CLOCK))
-    return record, bed, problem_of(record, bed, Params(TERMS, SENSOR_TERMS[CLOCK:])), point
+    return (
+        record,
+        bed,
+        problem_of(record, bed, Params(TERMS, SENSOR_TERMS[CLOCK : CLOCK + 1])),
+        point,
+    )
 
 
 def test_a_clock_is_read_as_rows_that_were_stamped_otherwise(ticking):

@@ -95,6 +95,7 @@ class Local(NamedTuple):
     pieces: Pieces
     left_q: Floats  # (n, 3) residuals in sd
     left_w: Floats
+    left_v: Floats
 
 
 class Ended(NamedTuple):
@@ -173,9 +174,9 @@ def jump(posed: Posed, k: int, jumps: Floats, step: Floats, here: Floats, out: F
 
 @part
 def along_part(
-    posed: Posed, body: Body, known: Floats, p: int, here: Floats, rows: tuple[int, int],
+    posed: Posed, body: Body, known: Floats, p: int, here: Floats, rows: tuple[int, int, int],
     at: Local, share: Share,
-) -> tuple[float, int, int, bool]:  # fmt: skip
+) -> tuple[float, int, int, int, bool]:  # fmt: skip
     """Sum a part into the arrays of ``share``, and write the state at its end into ``here``.
 
     Return half the cost, the first rows of what follows, and whether all is finite.
@@ -186,28 +187,29 @@ def along_part(
     inputs = Inputs(posed.maps, posed.t, known, posed.owners, columns)
     work = narrowed(share.own, m, m + posed.slots.shape[0] - total)
     q0, w0, nodes = here[:W], here[W : W + 3], (parts.nodes[p], parts.nodes[p + 1])
-    cost, iq, iw = accumulate(body, inputs, q0, w0, sensor, bias, posed.observed, posed.limit,
-                              nodes, rows, work, at.left_q, at.left_w)  # fmt: skip
+    cost, iq, iw, iv = accumulate(body, inputs, q0, w0, sensor, bias, posed.observed, posed.limit,
+                                  nodes, rows, work, at.left_q, at.left_w, at.left_v)  # fmt: skip
     finite = unpack(work, posed.mass, share.square, share.right)
     arrive(posed.mass, body, inputs, nodes[1], work, share.phi, here)
-    return cost, iq, iw, finite
+    return cost, iq, iw, iv, finite
 
 
 @part
 def along_stretch(
-    posed: Posed, known: Floats, k: int, here: Floats, rows: tuple[int, int], at: Local,
+    posed: Posed, known: Floats, k: int, here: Floats, rows: tuple[int, int, int], at: Local,
     share: Share,
-) -> tuple[float, int, int, bool]:  # fmt: skip
+) -> tuple[float, int, int, int, bool]:  # fmt: skip
     """Write the local model of a stretch that begins at ``here``, which is its end then."""
     parts, total, pieces = posed.parts, posed.columns.kinds.shape[0], at.pieces
     normal, descent = pieces.normal[k], pieces.descent[k]
     errors_at = total - count_errors(posed.columns)
     body, cost, finite = body_at_point(here, posed.mass, posed.gravity), 0.0, True
-    iq, iw = rows
+    iq, iw, iv = rows
     normal[:], descent[:] = 0.0, 0.0
     begin_stretch(share)
     for p in range(parts.stretch[k], parts.stretch[k + 1]):
-        of_part, iq, iw, is_finite = along_part(posed, body, known, p, here, (iq, iw), at, share)
+        of_part, iq, iw, iv, is_finite = along_part(posed, body, known, p, here, (iq, iw, iv), at,
+                                                    share)  # fmt: skip
         cost, finite = cost + of_part, finite and is_finite
         _, places = columns_within(parts, p)
         nodes = (parts.nodes[p], parts.nodes[p + 1])
@@ -215,7 +217,7 @@ def along_stretch(
         express(known, posed.owners, posed.maps, nodes, posed.mass, errors_at, share)
         add_part(places, total, share, normal, descent)
         pass_on(places, total, share)
-    return cost, iq, iw, finite
+    return cost, iq, iw, iv, finite
 
 
 @kernel  # not a part: smoothing calls it too
@@ -227,7 +229,7 @@ def search_along(
     Infinite where the motion is no number. ``step``, ``here`` and ``behind`` are worked in.
     """
     cuts, pieces, finite = posed.cuts, at.pieces, True
-    cost, iq, iw, last = jump_cost(cuts, pieces.jumps), 0, 0, cuts.free.shape[0]
+    cost, iq, iw, iv, last = jump_cost(cuts, pieces.jumps), 0, 0, 0, cuts.free.shape[0]
     for j in range(here.shape[0]):
         here[j] = at.point[j]
     for k in range(last + 1):
@@ -237,7 +239,8 @@ def search_along(
                 here[j] = behind[j]
         for j in range(here.shape[0]):
             pieces.points[k, j] = here[j]
-        of_data, iq, iw, is_finite = along_stretch(posed, known, k, here, (iq, iw), at, share)
+        of_data, iq, iw, iv, is_finite = along_stretch(posed, known, k, here, (iq, iw, iv), at,
+                                                       share)  # fmt: skip
         cost, finite = cost + of_data, finite and is_finite
         if k < last:
             copy_rows(share.onward, pieces.onward[k])
@@ -290,6 +293,7 @@ def keep(trial: Local, best: Local) -> None:
             copy_rows(trial.pieces.onward[k], best.pieces.onward[k])
     copy_rows(trial.left_q, best.left_q)
     copy_rows(trial.left_w, best.left_w)
+    copy_rows(trial.left_v, best.left_v)
 
 
 @kernel  # not a part: it is called three times, and need not be compiled so often
@@ -330,8 +334,10 @@ def report(
 def local_for(posed: Posed, point: Floats) -> Local:
     """Return a point with room for the local models there."""
     n_q, n_w = posed.observed.attitude.shape[0], posed.observed.rate.shape[0]
+    n_v = posed.observed.vectors.values.shape[0]
     pieces = pieces_for(posed.cuts, posed.slots.shape[0], point.shape[0])
-    return Local(point.copy(), pieces, np.zeros((n_q, 3)), np.zeros((n_w, 3)))
+    return Local(point.copy(), pieces, np.zeros((n_q, 3)), np.zeros((n_w, 3)),
+                 np.zeros((n_v, 3)))  # fmt: skip
 
 
 @kernel
@@ -345,7 +351,8 @@ def descend(
     this is the local model at a point. A descent goes on where it ended with the damping and growth
     that it had; its first evaluation is then once more that of ``best``.
     """
-    n, rows = posed.slots.shape[0], 3 * (best.left_q.shape[0] + best.left_w.shape[0])
+    n = posed.slots.shape[0]
+    rows = 3 * (best.left_q.shape[0] + best.left_w.shape[0] + best.left_v.shape[0])
     trial = local_for(posed, best.point)
     copy_rows(best.pieces.jumps, trial.pieces.jumps)
     known = posed.known.copy() if posed.owners.shape[0] else posed.known

@@ -3,6 +3,7 @@
     e_q = log( q_said^-1 (x) q_meas ) / sd,      de_q/dp = -dth/dp / sd
     e_w = ( w_meas - w_said ) / sd,              de_w/dp = -(E + M) dw/dp / sd,  de_w/db = -1 / sd
                                                  de_w/dc = (E + M) (t - t0) w' / sd
+    e_v = ( v_meas - v_said ) / sd               of sensors of vectors, see ``vector_rows``
 
 q_said and w_said are what ``sensors.camera`` and ``sensors.gyro`` make of the attitude and rate.
 
@@ -23,6 +24,7 @@ from equipoise.dynamics.propagation import (
     evaluate,
     hermite,
     interpolate,
+    slope,
     slope_at,
     start,
     steady,
@@ -40,14 +42,24 @@ from equipoise.dynamics.rigid_body import (
     rate_of,
     times,
 )
-from equipoise.dynamics.sensitivities import BLOCK, LANES, Inputs, Work, dot, room_for
+from equipoise.dynamics.sensitivities import BLOCK, LANES, SPAN, Inputs, Work, dot, room_for, spot
+from equipoise.estimation.output_error.kernels.vector_rows import (
+    Vectors,
+    acceleration_columns,
+    bias_columns,
+    by_turning,
+    is_aside,
+    plus,
+    row_at,
+    turn_columns,
+    vector_in_body,
+    vector_residual,
+)
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.turns import to_body, turn
 from equipoise.model.arrays import Floats, Ints, Nine, Six, Triple
 from equipoise.sensors.camera import CLOCK, DELAY, column, less_cross, said, seeing
 from equipoise.sensors.gyro import entry, gyro_matrix
-
-SPAN = 3 * LANES  # numbers in a block of three rows of sensitivities
 
 
 class Measurements(NamedTuple):
@@ -65,6 +77,7 @@ class Measurements(NamedTuple):
     rate_spread: float  # s^2
     forward: Triple  # body axis whose heading counts
     terms: Ints  # coefficients of the sensors that are sought
+    vectors: Vectors
 
 
 @part
@@ -87,6 +100,7 @@ class Pass(NamedTuple):
     step: Work
     S_q: Floats  # three rows of sensitivities, in blocks of LANES columns
     S_w: Floats
+    S_v: Floats
     normal: Floats  # (unknowns lanes,), row by row, the lower triangle
     descent: Floats  # (lanes,)
 
@@ -98,7 +112,8 @@ def pass_for(columns: int, unknowns: int) -> Pass:
     return Pass(
         np.empty(m), np.empty(m), np.empty(m), np.empty(m),
         Work(np.empty(m), np.empty(m), np.empty(m), np.zeros((3, WIDTH)), np.zeros(m - ROWS)),
-        np.zeros(3 * lanes), np.zeros(3 * lanes), np.zeros(unknowns * lanes), np.zeros(lanes),
+        np.zeros(3 * lanes), np.zeros(3 * lanes), np.zeros(3 * lanes), np.zeros(unknowns * lanes),
+        np.zeros(lanes),
     )  # fmt: skip
 
 
@@ -107,13 +122,13 @@ def narrowed(work: Pass, columns: int, unknowns: int) -> Pass:
     """Return the arrays for fewer sensitivities and unknowns, and bring to zero what must be."""
     m, lanes = ROWS + room_for(columns), (unknowns + LANES - 1) // LANES * LANES
     step = work.step
-    step.fb[:], work.S_q[:], work.S_w[:] = 0.0, 0.0, 0.0
+    step.fb[:], work.S_q[:], work.S_w[:], work.S_v[:] = 0.0, 0.0, 0.0, 0.0
     work.normal[:], work.descent[:] = 0.0, 0.0
     return Pass(
         work.y[:m], work.y0[:m], work.dy0[:m], work.dy1[:m],
         Work(step.at[:m], step.dy[:m], step.total[:m], step.regress, step.fb[: m - ROWS]),
-        work.S_q[: 3 * lanes], work.S_w[: 3 * lanes], work.normal[: unknowns * lanes],
-        work.descent[:lanes],
+        work.S_q[: 3 * lanes], work.S_w[: 3 * lanes], work.S_v[: 3 * lanes],
+        work.normal[: unknowns * lanes], work.descent[:lanes],
     )  # fmt: skip
 
 
@@ -147,12 +162,6 @@ def turn_rows(work: Pass, h: float, share: float, spread: float, scale: float, S
         y1, dy1 = work.y[i : i + SPAN], work.dy1[i : i + SPAN]
         for j in range(SPAN):
             S_k[j] = a * y0[j] + b * dy0[j] + c * y1[j] + d * dy1[j]
-
-
-@part
-def spot(c: int) -> int:
-    """Return where the first of three rows of a column is."""
-    return c // LANES * SPAN + c % LANES
 
 
 @part
@@ -254,6 +263,25 @@ def see_rate(
 
 
 @part
+def see_vector(
+    work: Pass, body: Body, now: Now, inputs: Inputs, i: int, share: float, w: Triple, g: Triple,
+    data: Measurements, sensor: Floats, row: int, limit: float, left: Floats,
+) -> float:  # fmt: skip
+    """Add a row of a sensor of a vector, as ``see_rate`` does with one of the gyro."""
+    vectors, step, S, n = data.vectors, work.step, work.S_v, inputs.columns.kinds.shape[0]
+    k = int(vectors.sensor[row])
+    p, u, scale = (row_at(vectors.place, k), vector_in_body(vectors, row, step.at),
+                   1.0 / float(vectors.sd[k]))  # fmt: skip
+    turn_columns(u, n, scale, step.at, S)
+    if is_aside(p):
+        slope(body, now, w, g, step.at, step, step.dy)
+        turning = acceleration_columns(now, inputs, i, share, p, w, step, scale, S)
+        u = plus(u, by_turning(p, w, turning))
+    bias_columns(data.terms, int(vectors.bias[k]), n, scale, S)
+    return weigh(vector_residual(vectors, row, sensor, u, scale), limit, S, work, left)
+
+
+@part
 def lateness(
     body: Body, now: Now, w: Triple, g: Triple, age: float, data: Measurements, step: Work
 ) -> Triple:
@@ -277,21 +305,22 @@ def step_behind(node: int) -> tuple[int, float]:
 @part
 def accumulate(
     body: Body, inputs: Inputs, q0: Floats, w0: Floats, sensor: Floats, bias: Floats,
-    data: Measurements, limit: float, stretch: tuple[int, int], rows: tuple[int, int], work: Pass,
-    left_q: Floats, left_w: Floats,
-) -> tuple[float, int, int]:  # fmt: skip
+    data: Measurements, limit: float, stretch: tuple[int, int], rows: tuple[int, int, int],
+    work: Pass, left_q: Floats, left_w: Floats, left_v: Floats,
+) -> tuple[float, int, int, int]:  # fmt: skip
     """Sum the normal equations of the steps from one node to another (``stretch``).
 
-    The state at the first is as the step that ends there sees it. ``rows`` are the first camera and
-    gyro row from there on. Write the residuals in units of sd; return half the cost and the first
-    rows of what follows. ``work.y`` is left at the end.
+    The state at the first is as the step that ends there sees it. ``rows`` are the first rows of
+    camera, gyro and vectors from there on. Write the residuals in units of sd; return half the cost
+    and the first rows of what follows. ``work.y`` is left at the end.
     """
     (maps, t, known, _, columns), (y, y0, dy0, dy1, step) = inputs, work[:5]
     n, last = columns.kinds.shape[0], t.shape[0] - 2
     q_node, w_node, q_share, w_share = (data.attitude_node, data.rate_node, data.attitude_share,
                                         data.rate_share)  # fmt: skip
     cost, moving, was_steady, by = 0.0, drifts(body), False, gyro_matrix(sensor)
-    iq, iw = rows
+    v_node, v_share = data.vectors.node, data.vectors.share
+    iq, iw, iv = rows
     first, since = step_behind(stretch[0])
     start(body, body_at(body, maps, t, known, first, since), inputs, first, since, q0, w0, y, step)
     for i in range(stretch[0], stretch[1]):
@@ -319,4 +348,12 @@ def accumulate(
             late = lateness(body, now, w, g, age, data, step)
             cost += see_rate(work, now, by, w, late, bias, data, iw, n, limit, left_w[iw])
             iw += 1
-    return cost, iq, iw
+        while iv < v_node.shape[0] and (v_node[iv] == i or i == last):
+            share = v_share[iv] if v_node[iv] == i else 1.0
+            interpolate(y0, dy0, y, dy1, h, share, 0.0, step.at)
+            now = body_within(body, maps, t, known, i, share, fixed, here)
+            w, g = evaluate(body, now, inputs, i, share, step.at, step)
+            cost += see_vector(work, body, now, inputs, i, share, w, g, data, sensor, iv, limit,
+                               left_v[iv])  # fmt: skip
+            iv += 1
+    return cost, iq, iw, iv

@@ -1,0 +1,45 @@
+"""Tables of sensors that see a vector: accelerometer, sun sensor, magnetometer."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from equipoise.io.toml.key_types import Direction, Holds, NotNegative, Positive, Triple
+from equipoise.io.toml.table_records import RecordTable
+from equipoise.model import vector_sensors as model
+
+
+class Accelerometer(RecordTable):
+    """An accelerometer triad; at rest it gives g upwards (columns accel_x_m_s2 ...)."""
+
+    KIND = model.Accelerometer
+
+    rate_hz: Positive
+    noise_m_s2: Positive = Field(description="one sd per axis and sample")
+    bias_sd_m_s2: NotNegative = Field(0.2, description="chosen: 20 mg, usual for a low-cost MEMS")
+    place_mm: Triple = Field([0.0, 0.0, 0.0], description="from the centre of rotation")
+    delay_s: NotNegative = 0.0
+
+
+class Sun(RecordTable):
+    """A sun sensor and its lamp; it gives a unit vector (columns sun_x ...)."""
+
+    KIND = model.SunSensor
+
+    rate_hz: Positive
+    noise: Positive = Field(description="one sd per axis and sample, of a unit vector")
+    direction: Annotated[Direction, Holds("direction_N")] = Field(
+        description="to the lamp, laboratory axes, z up"
+    )
+    delay_s: NotNegative = 0.0
+
+
+class Magnetometer(RecordTable):
+    """A magnetometer whose rows (columns field_x_uT ...) count as measurements of the attitude."""
+
+    KIND = model.Magnetometer
+
+    rate_hz: Positive
+    noise_uT: Positive = Field(description="one sd per axis and sample")
+    bias_sd_uT: NotNegative = Field(1.0, description="chosen: what a calibration leaves")
+    delay_s: NotNegative = 0.0

@@ -1,0 +1,68 @@
+"""What sensors see of a vector of the laboratory.
+
+    y = R^T v_N + w' x p + w x (w x p) + b        R: body to laboratory;  p: place, from P
+
+    accelerometer   v_N = g e_z      specific force: at rest g upwards; b sought
+    sun sensor      v_N = s_N        unit vector to a lamp; p = 0, b = 0
+    magnetometer    v_N = B_N        magnetic field; p = 0, b sought
+
+An accelerometer that is not at P feels how the platform turns; the others do not.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.maths.attitude import to_matrix
+from equipoise.model.arrays import Series3, Series4, Vector3
+from equipoise.model.testbed import Testbed
+from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
+
+CHANNELS = ("accelerometer", "sun", "field")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class VectorSensor:
+    """A sensor of the testbed and the vector that it sees."""
+
+    channel: str  # of the recording
+    rate: float  # Hz
+    noise: float  # SI, one sd per axis and sample
+    bias_sd: float  # SI; 0: it has no bias
+    delay: float  # s
+    vector_N: Vector3  # SI, laboratory axes
+    place: Vector3  # m, from P; zeros where it makes no difference
+
+
+def vector_sensors(testbed: Testbed) -> tuple[VectorSensor, ...]:
+    """Return the sensors of vectors that a testbed has, in the order of ``CHANNELS``."""
+    inertial, sun, magnetic = testbed.accelerometer, testbed.sun, testbed.magnetometer
+    field, found, centre = testbed.magnetic_field, list[VectorSensor](), np.zeros(3)
+    if inertial is not None:
+        up, place = np.array([0.0, 0.0, testbed.gravity]), inertial.place
+        found.append(_vector_sensor("accelerometer", inertial, inertial.bias_sd, up, place))
+    if sun is not None:
+        found.append(_vector_sensor("sun", sun, 0.0, sun.direction_N, centre))
+    if magnetic is not None and field is not None:
+        found.append(_vector_sensor("field", magnetic, magnetic.bias_sd, field.field_N, centre))
+    return tuple(found)
+
+
+def _vector_sensor(
+    channel: str,
+    sensor: Accelerometer | SunSensor | Magnetometer,
+    bias_sd: float,
+    vector_N: Vector3,
+    place: Vector3,
+) -> VectorSensor:
+    return VectorSensor(channel, sensor.rate, sensor.noise, bias_sd, sensor.delay, vector_N, place)
+
+
+def vectors_in_body(sensor: VectorSensor, q: Series4, w: Series3, change: Series3) -> Series3:
+    """Return what a sensor without bias and noise sees, (n, 3) SI.
+
+    At attitudes q, rates w (rad/s) and ``change`` of the rates w' (rad/s^2).
+    """
+    turning = np.cross(change, sensor.place) + np.cross(w, np.cross(w, sensor.place))
+    found: Series3 = sensor.vector_N @ to_matrix(q) + turning
+    return found
