@@ -130,6 +130,13 @@ def test_a_line_with_all_its_cells_is_plain(line):
     assert contents(table) == result(text, AS_IT_IS)
 
 
+def test_a_clock_before_each_line_leaves_the_text_to_the_rules():
+    lines = ["a,b", *["1,2"] * ROWS]
+    text = "\n".join(f"14:11:40.12{k % 10} -> {line}" for k, line in enumerate(lines))
+    assert row_by_row(text, "a.csv", AS_IT_IS).names == ("a", "b")
+    assert plain_table(text, "a.csv", AS_IT_IS) is None
+
+
 def test_a_short_text_is_left_to_the_rules():
     assert plain_table("a,b\n1,2\n3,4\n", "a.csv", AS_IT_IS) is None
     assert plain_table("", "a.csv", AS_IT_IS) is None
