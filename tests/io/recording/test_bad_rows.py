@@ -6,10 +6,10 @@ import pytest
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.formats.mat_table import mat_bytes
 from equipoise.io.formats.parquet_table import parquet_bytes, parquet_of_cells
-from equipoise.io.recording.clock import longest_rising
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import exponential
 from equipoise.model.errors import InputError
+from equipoise.model.growing_times import longest_rising
 
 N = 100
 T = np.arange(N) * 0.1

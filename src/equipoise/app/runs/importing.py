@@ -129,12 +129,14 @@ def _with_one_clock(table: Table, columns: ColumnMap) -> tuple[Table, ColumnMap]
     time = Numbers(read_time(table, columns))
     parts = [name for part in columns.time for name in part.names]
     clock = AND.join(parts)
-    whole = replace(
-        table,
-        names=(*table.names, clock),
-        column=lambda _, name: time if name == clock else table.numbers(name),
-        cell=lambda name, row: "" if name == clock else table.found(name, row).strip("'"),
-    )
+
+    def column(_: Table, name: str) -> Numbers:
+        return time if name == clock else table.numbers(name)
+
+    def cell(name: str, row: int) -> str:
+        return "" if name == clock else table.found(name, row).strip("'")
+
+    whole = replace(table, names=(*table.names, clock), column=column, cell=cell)
     return whole, replace(columns, time=(Columns((clock,)),))
 
 

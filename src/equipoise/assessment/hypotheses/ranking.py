@@ -18,8 +18,8 @@ from equipoise.assessment.hypotheses.clocks import ClockGuess, clock_guesses
 from equipoise.assessment.hypotheses.frames import FrameGuess, frame_guesses
 from equipoise.assessment.hypotheses.gyros import GyroGuess, gyro_guesses, spans_of, stem
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
-from equipoise.io.recording.clock import longest_rising, wraps
 from equipoise.model.arrays import Floats, Ints, Series4
+from equipoise.model.growing_times import longest_rising, wraps
 
 CLOCKS = 3  # that are tried (chosen)
 DOUBTED = 1.0  # doubt beyond the best clock's, from which a clock is not tried (chosen)

@@ -6,7 +6,6 @@ run of times that do not go back is kept, so that a wrong stamp condemns itself 
 it. Few rows at either end that a gap beyond any measure cuts off are another clock's.
 """
 
-from bisect import bisect_right
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,12 +16,9 @@ from equipoise.io.columns.table import Table, no_rows
 from equipoise.io.recording.channels import read_time
 from equipoise.model.arrays import Ints, Series1
 from equipoise.model.errors import InputError
-from equipoise.model.units import US
+from equipoise.model.growing_times import longest_rising, wraps
 
 Notes = tuple[str, ...]
-LATE = 20.0  # usual steps that a counter may have gone on by when it is seen again (chosen)
-BITS = (16, 32)  # of counters, in the column's unit
-PERIODS = (2**32 * US, 86_400.0, 43_200.0, 604_800.0)  # s: micros(), a day, its half, a week
 STRAY = 1000.0  # times all the rest, chosen: no bench falls silent for so long and goes on
 FEW = 0.1  # share of the rows that may be stray (chosen)
 WANTED = "times that grow from row to row"
@@ -77,21 +73,6 @@ def _unwrapped(
     return whole, tuple(notes)
 
 
-def wraps(t: Series1, unit: float) -> list[tuple[int, float]]:
-    """Return where a clock (s, of a counter's ``unit``) began anew, and after how long (s)."""
-    steps = np.diff(t)
-    ahead, back = steps[steps > 0], np.flatnonzero(steps < 0)
-    if not len(back) or not len(ahead):
-        return []
-    late = LATE * float(np.median(ahead))
-    lengths = [2.0**bits * unit for bits in BITS] + list(PERIODS)
-    found: list[tuple[int, float]] = []
-    for k in back.tolist():
-        fits = [length for length in lengths if 0 < steps[k] + length <= late]
-        found += [(k + 1, length) for length in fits[:1]]
-    return found
-
-
 def _forward(table: Table, time: Series1, timed: Ints) -> tuple[Ints, tuple[FaultyRows, ...]]:
     """Return the longest run of rows whose time does not go back, and the others."""
     t = time[timed]
@@ -103,22 +84,6 @@ def _forward(table: Table, time: Series1, timed: Ints) -> tuple[Ints, tuple[Faul
     where = f"{table.source}, {table.place(int(timed[at + 1]))}"
     found = f"time going backwards, from {t[at]:.9g} s to {t[at + 1]:.9g} s"
     return rows, (FaultyRows(RowFault.BACKWARD, back, where, found, WANTED),)
-
-
-def longest_rising(t: Series1) -> Ints:
-    """Return the places of the longest subsequence that does not fall, by patience sorting."""
-    ends: list[float] = []  # of the best run of each length, and where that is
-    places: list[int] = []
-    before = np.full(len(t), -1, dtype=np.int64)
-    for k, value in enumerate(t.tolist()):
-        length = bisect_right(ends, value)
-        before[k] = places[length - 1] if length else -1
-        ends[length : length + 1] = [value]
-        places[length : length + 1] = [k]
-    kept: list[int] = [places[-1]]
-    while before[kept[-1]] >= 0:
-        kept.append(int(before[kept[-1]]))
-    return np.array(kept[::-1], dtype=np.int64)
 
 
 def _without_strays(table: Table, time: Series1, rows: Ints) -> tuple[Ints, tuple[FaultyRows, ...]]:
