@@ -127,14 +127,15 @@ def by_motion(found: Imported, testbed: Testbed, bad_rows: float) -> TableReadin
 def _with_one_clock(table: Table, columns: ColumnMap) -> tuple[Table, ColumnMap]:
     """Return a table whose time, the sum of several columns, is one column more, in s."""
     time = Numbers(read_time(table, columns))
-    parts = [name for part in columns.time for name in part.names]
-    clock = AND.join(parts)
-    whole = replace(
-        table,
-        names=(*table.names, clock),
-        column=lambda _, name: time if name == clock else table.numbers(name),
-        cell=lambda name, row: "" if name == clock else table.found(name, row).strip("'"),
-    )
+    clock = AND.join(name for part in columns.time for name in part.names)
+
+    def column(_: Table, name: str) -> Numbers:
+        return time if name == clock else table.numbers(name)
+
+    def cell(name: str, row: int) -> str:
+        return "" if name == clock or table.cell is None else table.cell(name, row)
+
+    whole = replace(table, names=(*table.names, clock), column=column, cell=cell)
     return whole, replace(columns, time=(Columns((clock,)),))
 
 
