@@ -3,6 +3,8 @@
 A gyro and an accelerometer; a sun sensor beside them; a magnetometer. Masses move on the way.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -49,3 +51,18 @@ def test_each_further_sensor_tightens_the_estimate():
         sd[kit] = np.sqrt(np.diag(np.linalg.inv(normal)))[12:15]
     assert (sd["sun"] < 1.001 * sd["imu"]).all()
     assert (sd["compass"] < 1.001 * sd["imu"]).all()
+
+
+@pytest.mark.parametrize("share", [0.3, 3.0])
+def test_a_noise_that_is_wrongly_stated_is_found(share):
+    """The estimate is that with the true noise, within a tenth of an sd, and as sure."""
+    _, record, bed = case(1, "imu")
+    stated = replace(bed.accelerometer, noise=share * bed.accelerometer.noise)
+    wrong = replace(bed, accelerometer=stated)
+    right, found = (reference_fit.estimate(record, each, Params()) for each in (bed, wrong))
+    sd, other = (
+        np.array([each.parameters[each.index(name)].sd for name in NAMES])
+        for each in (right, found)
+    )
+    np.testing.assert_allclose(found.values(NAMES) / sd, right.values(NAMES) / sd, rtol=0, atol=0.1)
+    np.testing.assert_allclose(other, sd, rtol=0.1)

@@ -9,6 +9,7 @@ count. When they are known, by restricted maximum likelihood, which uses every r
 with jumps u of smoothed covariance C (the fixed point of Helmert 1924; MacKay 1992).
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import count
 
@@ -24,7 +25,13 @@ from equipoise.estimation.events.record_model import (
     refitted,
     smoothed,
 )
-from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
+from equipoise.estimation.motion.sensor_noise import (
+    camera_noise,
+    gyro_noise,
+    vector_noise,
+    with_noise,
+    with_vector_noise,
+)
 from equipoise.estimation.output_error.initial_guess import stated_body
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.multiple_shooting import shot_driven
@@ -37,6 +44,7 @@ from equipoise.estimation.search_budget import Stage
 from equipoise.model.arrays import Bools, Floats, Series1, Vector3
 from equipoise.model.estimate import RATE as RATES
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.vector_sensors import CHANNELS as VECTORS
 
 MEDIAN, MEDIAN_1 = float(chi2.median(3)), float(chi2.median(1))
 CALM, CHANCE = 0.1, 1.0  # chosen: noise known to 10 % is known; 1 / sqrt(rows), 1.7 sd of a median
@@ -66,7 +74,7 @@ def surprises(calm: Bools, after: Smoothed) -> dict[str, Floats]:
 def first_walk(model: RecordModel) -> float:
     """Return process noise that bends the motion by the misfit within ten cuts, N m sqrt(s)."""
     fit = model.fitted
-    camera, gyro = misfits(fit)
+    camera, gyro = misfits(fit)[:2]
     sd = fit.problem.observed.attitude_sd if len(camera) else fit.problem.observed.rate_sd
     left = float(np.sqrt(np.median(camera if len(camera) else gyro))) * sd
     moment = model.testbed.body.mean_moment
@@ -105,14 +113,19 @@ def free_share(fit: Fitted, after: Smoothed) -> float:
     return max(1.0 - sought / fit.at.residuals, 0.1)
 
 
-def noise_factors(fit: Fitted, after: Smoothed) -> tuple[float, float]:
-    """Return by how much the camera's and the gyro's noise are off, by the median row."""
+def noise_factors(fit: Fitted, after: Smoothed) -> tuple[float, ...]:
+    """Return by how much the noise of each sensor (``misfits``) is off, by the median row."""
     share = free_share(fit, after)
-    factors = [
+    return tuple(
         float(np.sqrt(np.median(square) / MEDIAN / share)) if len(square) else 1.0
         for square in misfits(fit)
-    ]
-    return factors[0], factors[1]
+    )
+
+
+def are_known(factors: Sequence[float], fit: Fitted) -> bool:
+    """Say whether the noise of every sensor is near enough, for what its rows show."""
+    rows = map(len, misfits(fit))
+    return all(is_known(factor, n) for factor, n in zip(factors, rows, strict=True))
 
 
 def is_known(factor: float, rows: int) -> bool:
@@ -120,9 +133,12 @@ def is_known(factor: float, rows: int) -> bool:
     return abs(np.log(factor)) < max(CALM, CHANCE / np.sqrt(max(rows, 1)))
 
 
-def noisier(model: RecordModel, camera: float, gyro: float) -> Testbed:
+def noisier(model: RecordModel, camera: float, gyro: float, *vectors: float) -> Testbed:
     """Return the testbed with its noise changed by these factors, within reason."""
-    testbed, stated = model.testbed, model.stated
+    stated, factor = model.stated, dict[str, float](zip(VECTORS, vectors, strict=True))
+    now, least = vector_noise(model.testbed), vector_noise(stated)
+    noise = {name: max(sd * factor[name], BEST * least[name]) for name, sd in now.items()}
+    testbed = with_vector_noise(model.testbed, noise)
     return with_noise(
         testbed,
         max(camera_noise(testbed) * camera, BEST * camera_noise(stated)),
@@ -146,9 +162,7 @@ def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitt
         surprise, excess = surprises(calm, after), excesses(after, calm)
         factors = noise_factors(fit, after)
         steady = not model.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
-        camera, gyro = (len(rows) for rows in (fit.at.left_q, fit.at.left_w))
-        known = is_known(factors[0], camera) and is_known(factors[1], gyro)
-        found = (steady and known) or calibration >= CALIBRATIONS
+        found = (steady and are_known(factors, fit)) or calibration >= CALIBRATIONS
         if found or not model.may(Stage.NOISE):
             return model, surprise, fit
         bold = np.clip(excess, 1 / BOLDEST, BOLDEST)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.events.jump_test import KINDS, threshold
+from equipoise.estimation.motion.observed_vectors import observed
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.kernels.segments import count_free
@@ -24,6 +25,7 @@ from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
 from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.vector_sensors import CHANNELS as VECTORS
 
 EACH = 60  # evaluations, chosen: twice what a fit takes that settles
 
@@ -173,9 +175,13 @@ def process_noise(fit: Fitted) -> tuple[Bools, Floats]:
     return noise, np.array([jump.sd[:3] for jump in jumps if jump.is_noise])
 
 
-def misfits(fit: Fitted) -> tuple[Floats, Floats]:
-    """Return squared residual vectors of camera and gyro in sd."""
-    return np.sum(fit.at.left_q**2, axis=1), np.sum(fit.at.left_w**2, axis=1)
+def misfits(fit: Fitted) -> tuple[Floats, ...]:
+    """Return squared residual vectors in sd: of camera, of gyro, and of each of ``VECTORS``."""
+    left, vectors = fit.at.left_v, fit.problem.observed.vectors
+    present = [each.channel for each, _ in observed(fit.problem.recording, fit.problem.testbed)]
+    of = np.array([VECTORS.index(channel) for channel in present], dtype=np.int64)[vectors.sensor]
+    every = (fit.at.left_q, fit.at.left_w, *(left[of == k] for k in range(len(VECTORS))))
+    return tuple(np.sum(rows**2, axis=1) for rows in every)
 
 
 def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
@@ -186,11 +192,12 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
     An event has no prior to speak of: all else is as informed as if it were known, and it costs
     ``price``, the surprise that it must exceed.
     """
-    observed, prior = fit.problem.observed, fit.problem.prior
+    measured, prior = fit.problem.observed, fit.problem.prior
     loose = (prior.weight > 0) & ~prior.held
     total = 2.0 * fit.at.cost + log_det(fit.at.normal) - float(np.sum(np.log(prior.weight[loose])))
-    for rows, sd in ((observed.attitude, observed.attitude_sd), (observed.rate, observed.rate_sd)):
+    for rows, sd in ((measured.attitude, measured.attitude_sd), (measured.rate, measured.rate_sd)):
         total += 6.0 * len(rows) * float(np.log(sd))
+    total += 6.0 * float(np.sum(np.log(measured.vectors.sd[measured.vectors.sensor])))
     cuts, jumps = posed(fit.problem).cuts, fit.problem.jumps
     for k, (jump, free, weight) in enumerate(zip(jumps, cuts.free, cuts.weight, strict=True)):
         a = count_free(free)

@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.noise_identification import is_known, noise_factors, noisier
+from equipoise.estimation.events.noise_identification import are_known, noise_factors, noisier
 from equipoise.estimation.events.record_model import (
     RecordModel,
     active,
@@ -25,7 +25,13 @@ from equipoise.estimation.events.record_model import (
 )
 from equipoise.estimation.model_selection.decimation import TURNED, Condensed
 from equipoise.estimation.model_selection.survey import survey
-from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
+from equipoise.estimation.motion.sensor_noise import (
+    camera_noise,
+    gyro_noise,
+    vector_noise,
+    with_noise,
+    with_vector_noise,
+)
 from equipoise.estimation.output_error.problem import Problem, quickest_swing
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
@@ -66,6 +72,7 @@ def with_noise_of(few: Condensed, model: RecordModel, testbed: Testbed) -> Testb
     gyro, found = testbed.gyro, model.testbed.gyro
     gyro = gyro and replace(gyro, clock=found.clock if found else 0.0)
     testbed = replace(testbed, masses=model.testbed.masses, gyro=gyro)
+    testbed = with_vector_noise(testbed, vector_noise(model.testbed))
     camera, gyro = camera_noise(model.testbed), gyro_noise(model.testbed)
     return with_noise(testbed, camera * few.attitude_rows**0.5, gyro * few.rate_rows**0.5)
 
@@ -92,8 +99,7 @@ def with_all_rows(
 def with_rows_own_noise(model: RecordModel) -> RecordModel:
     """Return the model with the rows' own noise, if that is not what their means say."""
     factors = noise_factors(*smoothed(model))
-    rows = (len(model.fitted.at.left_q), len(model.fitted.at.left_w))
-    if all(is_known(factor, n) for factor, n in zip(factors, rows, strict=True)):
+    if are_known(factors, model.fitted):
         return model
     testbed = noisier(model, *factors)
     return refitted(replace(model, testbed=testbed, coloured=max(1.0, 1.0 / min(factors))))

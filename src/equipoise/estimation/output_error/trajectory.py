@@ -23,7 +23,12 @@ import numpy as np
 
 from equipoise.actuators.mass_errors import MassErrors
 from equipoise.estimation.motion.observed_vectors import bias_terms
-from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise, with_noise
+from equipoise.estimation.motion.sensor_noise import (
+    camera_noise,
+    gyro_noise,
+    with_noise,
+    with_vector_noise,
+)
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.growing_horizon import (
     CAPTURE,
@@ -60,6 +65,7 @@ from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import BODY, INERTIA
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.vector_sensors import vector_sensors
 
 METHOD = "trajectory"
 LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start is tried
@@ -172,6 +178,11 @@ def approach(
 def coarsened(testbed: Testbed) -> Testbed:
     """Return the testbed with sensors that are no better than the model is early in the search."""
     camera, gyro = camera_noise(testbed), gyro_noise(testbed)
+    coarse = {
+        each.channel: max(each.noise, COARSE * float(np.linalg.norm(each.vector_N)))
+        for each in vector_sensors(testbed)
+    }
+    testbed = with_vector_noise(testbed, coarse)
     return with_noise(testbed, max(camera, COARSE), max(gyro, COARSE))
 
 
