@@ -34,6 +34,9 @@ MODEL = _of("model", *(
         ("body.mass > 0 and smallest", "body.mass > -1 and smallest"),
     )
 ), (
+    "growing_times.py", "found += [(k + 1, length)", "found += [(k, length)",
+    "io/recording/test_bad_rows.py",
+), (
     "hardware.py", "return self.zero + (-1.0", "return self.zero - (-1.0",
     "hardware/boards/test_tmcl.py",
 ), (
@@ -147,6 +150,14 @@ CONTROL = _of(
 
 ASSESSMENT = _of(
     "assessment",
+    ("hypotheses/ranking.py", "t[place:] += length", "t[place:] -= length",
+     "assessment/hypotheses/test_wrapped_clock.py"),
+    ("hypotheses/ranking.py", "and gyro.signs == (-1, -1, -1)", "and gyro.signs == (-1, 1, -1)",
+     "io/recording/test_strange_recordings.py"),
+    ("hypotheses/frames.py", "sign * turn[:,", "-sign * turn[:,",
+     "assessment/hypotheses/test_scrambled_records.py"),
+    ("hypotheses/gyros.py", '"mdeg/s": MILLI * DEG, ', "",
+     "io/recording/test_strange_recordings.py"),
     ("record_checks/mass_flicker.py", "aside & returned & (t[back]", "aside & (t[back]",
      "assessment/record_checks/test_mass_flicker.py"),
     ("record_checks/mass_flicker.py", "(t[back] - t[there] < BACK)", "True",
@@ -324,6 +335,8 @@ STUDY = _of(
 
 IO = _of(
     "io",
+    ("recording/clock.py", "_longest_together(back) > max(", "_longest_together(back) < -max(",
+     "io/recording/test_bad_rows.py"),
     ("formats/clock_units.py", "round((t - whole) * 1e9)", "round((t + whole) * 1e9)",
      "io/mcap/test_mcap_recording.py"),
     ("recording/time_stamps.py", "np.diff(channel.t) == 0", "np.diff(channel.t) == -1",

@@ -150,3 +150,10 @@ def test_a_clock_that_restarts_is_refused_at_its_line(tmp_path) -> None:
 def test_the_longest_run_that_does_not_fall_is_found() -> None:
     """By hand: of 3 1 2 9 2 4 the run 1 2 2 4 is the longest."""
     assert longest_rising(np.array([3.0, 1.0, 2.0, 9.0, 2.0, 4.0])).tolist() == [1, 2, 4, 5]
+
+
+def test_of_two_records_in_one_file_none_is_spliced_from_both(tmp_path) -> None:
+    """However many rows may be left out: the run that grows longest begins in the first."""
+    body = lines(np.column_stack([np.append(T[:45], T[:55]), Q]))
+    with pytest.raises(InputError, match=r"line 47: found time going backwards.* cut the file"):
+        read(tmp_path, body, ROS, bad_rows=0.6)

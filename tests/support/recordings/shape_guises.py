@@ -131,9 +131,7 @@ def numbers_with_exponents_and_signs(motion: Motion, folder: Path) -> Path:
     return saved(folder, "\n".join([" ".join(table), *body]), "run.txt")
 
 
-@answered(
-    Refused("qw:0|no column of numbers|neither|cells|columns", "table|--columns|header|column")
-)
+@answered(Refused("qw:0.7332176|no column of numbers", "import .*--write-map|a table of a clock"))
 def names_before_each_number(motion: Motion, folder: Path) -> Path:
     """As a serial plotter takes it."""
     head, *rows = lines(columns(motion))
@@ -144,7 +142,7 @@ def names_before_each_number(motion: Motion, folder: Path) -> Path:
     return saved(folder, "\n".join(body), "run.txt")
 
 
-@answered(Refused("time_s", "column"))
+@answered(Refused("two columns 'time_s'", "wanted one"))
 def a_name_twice(motion: Motion, folder: Path) -> Path:
     head, *rows = lines(ours(motion))
     twice = [f"{head},{OURS[0]}", *(f"{row},{k}" for k, row in enumerate(rows))]

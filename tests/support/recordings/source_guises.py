@@ -155,7 +155,7 @@ def telemetry_of_mavlink(motion: Motion, folder: Path) -> Path:
     return saved(folder, telemetry(frames), "run.tlog")
 
 
-@answered(Refused("no body 'Tower'", "'?Base|Platform", options=("--body", "Tower")))
+@answered(Refused("no body 'Tower'", "one of Base, Platform", options=("--body", "Tower")))
 def a_body_that_is_not_there(motion: Motion, folder: Path) -> Path:
     return saved(folder, motive_export(motion, ("Base", "Platform")))
 
@@ -180,7 +180,7 @@ def camera_alone_in_a_sheet(motion: Motion, folder: Path) -> Path:
     return saved(folder, workbook({"Log": [["t", "q0", "q1", "q2", "q3"], *rows]}), "run.xlsx")
 
 
-@answered(Refused("a PDF|no text|binary|PDF", "a recording"))
+@answered(Refused("binary content: a PDF", r"a recording \(CSV"))
 def a_report_in_place_of_the_table(motion: Motion, folder: Path) -> Path:
     return saved(
         folder, b"%PDF-1.7\n" + "\n".join(lines(named(("t",), motion.t[:, None]))).encode()

@@ -102,7 +102,7 @@ def counts_beside_an_accelerometer(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(_others(motion) | table))
 
 
-@answered(Refused("no attitude|four columns|quaternion", "column map|--|scale", by=("import",)))
+@answered(Refused("No clock with four columns of a quaternion", "--write-map", by=("import",)))
 def quaternion_in_counts(motion: Motion, folder: Path) -> Path:
     """As a BNO055 counts it, 16384 being one."""
     return saved(folder, text(columns(motion, q=np.round(16384 * motion.q))))

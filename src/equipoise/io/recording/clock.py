@@ -21,6 +21,7 @@ from equipoise.model.growing_times import longest_rising, wraps
 Notes = tuple[str, ...]
 STRAY = 1000.0  # times all the rest, chosen: no bench falls silent for so long and goes on
 FEW = 0.1  # share of the rows that may be stray (chosen)
+FEWEST = 10  # rows together that a wrong clock may have stamped, of however few (chosen)
 WANTED = "times that grow from row to row"
 
 
@@ -74,7 +75,11 @@ def _unwrapped(
 
 
 def _forward(table: Table, time: Series1, timed: Ints) -> tuple[Ints, tuple[FaultyRows, ...]]:
-    """Return the longest run of rows whose time does not go back, and the others."""
+    """Return the longest run of rows whose time does not go back, and the others.
+
+    InputError where many others stand together: they are of another record, and the run may begin
+    in one and end in the other.
+    """
     t = time[timed]
     if (np.diff(t) >= 0).all():
         return timed, ()
@@ -83,7 +88,15 @@ def _forward(table: Table, time: Series1, timed: Ints) -> tuple[Ints, tuple[Faul
     at = int(np.argmax(np.diff(t) < 0))
     where = f"{table.source}, {table.place(int(timed[at + 1]))}"
     found = f"time going backwards, from {t[at]:.9g} s to {t[at + 1]:.9g} s"
+    if _longest_together(back) > max(FEW * len(t), FEWEST):
+        raise InputError(where, found, f"{WANTED}: cut the file there, if two recordings are in it")
     return rows, (FaultyRows(RowFault.BACKWARD, back, where, found, WANTED),)
+
+
+def _longest_together(rows: Ints) -> int:
+    """Return how many rows there are at most that follow each other."""
+    edges = np.flatnonzero(np.diff(rows) != 1)
+    return int(np.diff(np.concatenate([[-1], edges, [len(rows) - 1]])).max())
 
 
 def _without_strays(table: Table, time: Series1, rows: Ints) -> tuple[Ints, tuple[FaultyRows, ...]]:
