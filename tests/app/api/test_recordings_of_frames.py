@@ -129,7 +129,8 @@ def everything() -> Recording:
         attitude=Samples(T, Q), rate=rows(3, 0.01), mass_names=("x1", "z_2"), masses=rows(2, 0.02),
         momentum=rows(3, 0.03), torque=rows(3, 0.0), field=rows(3, 0.04),
         device_names=("wheel:x", "gimbal:a_b", "dipole:x", "jet:x"), devices=rows(4, 0.05),
-        temperature=rows(1, 0.0), lamp=rows(1, 0.0),
+        temperature=rows(1, 0.0), lamp=rows(1, 0.0), accelerometer=rows(3, 0.06),
+        sun=rows(3, 0.07),
     )  # fmt: skip
 
 
@@ -151,7 +152,7 @@ WRONG = {
     "a dictionary": (NATIVE, {}, "frame: found a dict"),
     "no rows": (pandas.DataFrame({"time_s": [], "q_w": []}), {}, "frame: found no rows"),
     "unknown columns": (
-        pandas.DataFrame({"a": T, "b": T}, index=DATES), {}, "columns a, b; wanted columns of",
+        pandas.DataFrame({"a": T, "b": T}, index=DATES), {}, "columns time_s, a, b; wanted",
     ),
     "nearly ours": (
         pandas.DataFrame({"time_s": T, **TURN, "mass_x1_cm": T}), {}, "'mass_<name>_mm'",

@@ -71,13 +71,13 @@ def running_integral(t: Series1, R: Floats) -> Floats:
 
 def corrections(rows: Rows, t: Series1, q: Series4, bias_sd: float) -> tuple[Vector3, Vector3]:
     """Return theta (rad) and db (rad/s) of an attitude that was integrated along times t (s)."""
-    R0: Matrix3 = to_matrix(q[0])
-    Q: Floats = R0.T @ to_matrix(q)
+    R_0: Matrix3 = to_matrix(q[0])
+    Q: Floats = R_0.T @ to_matrix(q)
     integral = running_integral(t, Q)
     normal, right = np.diag(np.repeat([OPEN**-2, bias_sd**-2], 3)), np.zeros(6)
     for sensor, channel in rows:
         k = np.clip(np.searchsorted(t, channel.t - sensor.delay), 0, len(t) - 1)
-        c, length = sensor.vector_N @ R0, float(np.linalg.norm(sensor.vector_N))
+        c, length = sensor.vector_N @ R_0, float(np.linalg.norm(sensor.vector_N))
         cross = np.cross(c, np.eye(3)).T
         A = np.concatenate([np.broadcast_to(cross, (len(k), 3, 3)), -cross @ integral[k]], axis=2)
         left = np.einsum("nij,nj->ni", Q[k], channel.values) - c

@@ -19,6 +19,8 @@ GROUPS = {
     "field": tuple(f"field_{axis}_T" for axis in "xyz"),
     "temperature": ("temperature_air_degC",),
     "lamp": ("lamp_power",),
+    "accelerometer": tuple(f"accelerometer_{axis}_m_s2" for axis in "xyz"),
+    "sun": tuple(f"sun_{axis}" for axis in "xyz"),
 }
 MASS = re.compile("masses_(.+)_m")
 DEVICE = re.compile("(?=wheel:.*_rad_s|gimbal:.*_rad|dipole:.*_A_m2|jet:.*_N_m)([a-z]+:.+?)"

@@ -33,6 +33,7 @@ from equipoise.io.columns.table import Table, finite
 from equipoise.io.formats.clock_units import seconds
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError
+from equipoise.model.recording import INPUTS
 
 FIELD = ("field_x_T", "field_y_T", "field_z_T")
 LARGEST = 1e150  # chosen: its square is still a double; no sensor's number
@@ -137,7 +138,8 @@ def _tidy(channel: LogChannel) -> _Tidy:
 
 def _repeated(tidy: _Tidy, times: Ints, source: str) -> list[FaultyRows]:
     """Return the rows whose time another had, as rows of the table at those times."""
-    if not len(tidy.repeated):
+    # Inputs are reported as they change, which may be twice at a time; sensors are sampled.
+    if not len(tidy.repeated) or tidy.channel.name in INPUTS:
         return []
     rows, name = np.searchsorted(times, tidy.repeated), tidy.channel.name
     where = f"{source}, row {rows[0] + 1}"
