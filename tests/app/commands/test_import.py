@@ -95,3 +95,17 @@ def test_a_record_that_cannot_be_is_not_fitted_unless_it_is_forced(equipoise, tm
     assert "rate: axes" in done.err
     assert "--force" in done.err
     assert "nothing was fitted" not in equipoise(*words, "--force", "--method", "momentum-body").err
+
+
+def test_a_header_that_says_it_all_claims_nothing_of_the_motion(equipoise, tmp_path, recording):
+    """A gyro alone under our own names: no readings, so no motion decided between them."""
+    rate = recording.rate
+    rows = [
+        ",".join(map(repr, map(float, (t, *w)))) for t, w in zip(rate.t, rate.values, strict=True)
+    ]
+    header = "time_s,omega_x_rad_s,omega_y_rad_s,omega_z_rad_s"
+    (tmp_path / "gyro.csv").write_text("\n".join([header, *rows[:500]]) + "\n")
+    done = equipoise("import", str(tmp_path / "gyro.csv"), "--testbed", "nanosat")
+    assert done.code == 0
+    assert "says itself what it holds" in done.out
+    assert "motion" not in done.out

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from equipoise.model.recording import Recording
     from equipoise.model.testbed import Testbed
 
+BY_FIT = "motion: a platform's is explained by this direction of the attitude alone."
+
 
 def import_(
     file: str,
@@ -79,10 +81,11 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written:
     from equipoise.io.recording.recording_file import recording_from
 
     chosen = found.chosen(choose)
-    moved = chosen is None and bed is not None
-    if moved and bed is not None:
+    by_fit: tuple[str, ...] = ()
+    if chosen is None and bed is not None:
         with busy("comparing motions", announce=False):
             chosen = by_motion(found, bed, written.bad_rows)
+        by_fit = (BY_FIT,) if chosen is not None else ()
     header = found.known is not None and not found.ranked.alike
     if chosen is None and not header:
         show(import_blocks(found.ranked, None, ()))
@@ -93,7 +96,6 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written:
     columns = found.known if chosen is None else found.columns(chosen, axis_up(bed))
     assert columns is not None  # one of the two is there
     recording = recording_from(found.table, columns, written.bad_rows)
-    by_fit = ("motion: a platform's is explained by this direction of the attitude alone.",) * moved
     notes = (*by_fit, *recording.notes, *recording.gaps)
     show(import_blocks(found.ranked, chosen, notes, header))
     if bed is not None:
