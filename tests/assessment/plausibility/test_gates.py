@@ -11,6 +11,7 @@ from equipoise.assessment.plausibility.body import body_findings
 from equipoise.assessment.plausibility.gyro_range import saturation_findings
 from equipoise.assessment.plausibility.rotation import rotation_findings
 from equipoise.assessment.plausibility.sampling import sampling_findings
+from equipoise.assessment.record_checks.clock_offset import clock_offset
 from equipoise.io.testbed.presets import preset_names, read_preset
 from equipoise.maths.attitude import conjugate
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
@@ -30,6 +31,11 @@ def channels(seed: int) -> tuple[Samples, Samples]:
     return recording.attitude, recording.rate
 
 
+def judged(attitude: Samples, rate: Samples):
+    """Return the findings at the delay that both show."""
+    return rotation_findings(attitude, rate, clock_offset(attitude, rate))
+
+
 def codes(found) -> set[str]:
     """Return the codes of findings of the kind that forbids a fit."""
     return {reason.code for each in found if each.kind == "wrong" for reason in each.reasons}
@@ -43,7 +49,7 @@ def other(rate: Samples, order, signs, scale: float = 1.0) -> Samples:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_sound_record_passes(seed) -> None:
     """MuJoCo's own rates and attitudes agree, whatever their noise, delays and clocks."""
-    found = rotation_findings(*channels(seed))
+    found = judged(*channels(seed))
     assert not codes(found)
     assert any(each.reasons[0].code == Why.SENSORS_AGREE for each in found)
 
@@ -56,19 +62,19 @@ def test_every_other_order_and_sign_of_axes_is_named(order, signs) -> None:
     """The axes of the remedy, applied, make the record pass."""
     attitude, rate = channels(6)
     wrong = other(rate, order, signs)
-    (found,) = rotation_findings(attitude, wrong)
+    (found,) = judged(attitude, wrong)
     assert codes([found]) == {Why.GYRO_AXES, Why.READ_AXES}
     named = next(r.parameters for r in found.reasons if r.code == Why.GYRO_AXES)
     back = ["xyz".index(axis[-1]) for axis in named]
     mended = other(wrong, back, [-1 if axis.startswith("-") else 1 for axis in named])
-    assert not codes(rotation_findings(attitude, mended))
+    assert not codes(judged(attitude, mended))
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_an_attitude_of_the_other_direction_is_named(seed) -> None:
     """It turns laboratory into body components."""
     attitude, rate = channels(seed)
-    found = rotation_findings(Samples(attitude.t, conjugate(attitude.values)), rate)
+    found = judged(Samples(attitude.t, conjugate(attitude.values)), rate)
     assert Why.ATTITUDE_INVERSE in codes(found)
     assert Why.READ_INVERSE in codes(found)
 
@@ -78,7 +84,7 @@ def test_an_attitude_of_the_other_direction_is_named(seed) -> None:
 def test_another_unit_is_named_with_its_factor(seed, scale) -> None:
     """Degrees for radians, radians for degrees, thousandths, raw counts."""
     attitude, rate = channels(seed)
-    (found,) = rotation_findings(attitude, other(rate, (0, 1, 2), (1, 1, 1), scale))
+    (found,) = judged(attitude, other(rate, (0, 1, 2), (1, 1, 1), scale))
     assert codes([found]) == {Why.OTHER_UNIT, Why.READ_UNIT}
     assert found.reasons[0].numbers["scale"] == pytest.approx(scale, rel=0.1)
 
@@ -86,7 +92,7 @@ def test_another_unit_is_named_with_its_factor(seed, scale) -> None:
 def test_one_axis_of_another_scale_is_a_problem_and_no_other_axis() -> None:
     """Its ratio to the attitude's turning, not a ratio of scatters."""
     attitude, rate = channels(6)
-    found = rotation_findings(attitude, other(rate, (0, 1, 2), (1, 1.3, 1)))
+    found = judged(attitude, other(rate, (0, 1, 2), (1, 1.3, 1)))
     scales = [each.reasons[0] for each in found if each.reasons[0].code == Why.OTHER_SCALE]
     assert [reason.parameters for reason in scales] == [("y",)]
     assert scales[0].numbers["scale"] == pytest.approx(1.3, rel=0.05)
@@ -97,7 +103,7 @@ def test_a_gyro_of_another_platform_is_unrelated() -> None:
     attitude, rate = channels(6)
     thirds = [np.roll(axis, k * len(rate) // 7) for k, axis in enumerate(rate.values.T, 2)]
     shifted = np.stack(thirds, axis=1)[::-1]
-    found = rotation_findings(attitude, Samples(rate.t, shifted))
+    found = judged(attitude, Samples(rate.t, shifted))
     assert [each.reasons[0].code for each in found] == [Why.NO_RELATION]
 
 

@@ -66,9 +66,9 @@ def test_the_testbed_is_held_against_it() -> None:
     """A delay of 20 ms and the half of an averaging of 40 ms are a lag of 40 ms."""
     rows = observed(0.04, 1)
     gyro = Gyro(50.0, 1e-3, 1e-2)
-    (fits,) = offset_findings(*rows, AttitudeSensor(10.0, 1e-3, 0.02, 0.04), gyro)
+    (fits,) = offset_findings(clock_offset(*rows), AttitudeSensor(10.0, 1e-3, 0.02, 0.04), gyro)
     assert fits.kind == "content"
-    (wrong,) = offset_findings(*rows, AttitudeSensor(10.0, 1e-3), gyro)
+    (wrong,) = offset_findings(clock_offset(*rows), AttitudeSensor(10.0, 1e-3), gyro)
     assert wrong.kind == "problem"
     assert "by the testbed it would be 0 ms" in wrong.sentence
     reported = float(wrong.sentence.split("stamped ")[1].split(" ms")[0])
@@ -78,7 +78,9 @@ def test_the_testbed_is_held_against_it() -> None:
 def test_a_gyro_that_is_late_itself_takes_from_the_lag() -> None:
     """70 ms of the camera less 30 ms of the gyro are a lag of 40 ms."""
     gyro = Gyro(50.0, 1e-3, 1e-2, delay=0.03)
-    (fits,) = offset_findings(*observed(0.04, 1), AttitudeSensor(10.0, 1e-3, 0.07), gyro)
+    (fits,) = offset_findings(
+        clock_offset(*observed(0.04, 1)), AttitudeSensor(10.0, 1e-3, 0.07), gyro
+    )
     assert fits.kind == "content"
 
 

@@ -9,7 +9,11 @@ from equipoise.assessment.plausibility.gyro_range import saturation_findings
 from equipoise.assessment.plausibility.rotation import rotation_findings
 from equipoise.assessment.plausibility.sampling import sampling_findings
 from equipoise.assessment.record_checks.attitude_noise import noise_findings
-from equipoise.assessment.record_checks.clock_offset import offset_findings
+from equipoise.assessment.record_checks.clock_offset import (
+    ClockOffset,
+    clock_offset,
+    offset_findings,
+)
 from equipoise.assessment.record_checks.exposure_averaging import averaging_findings
 from equipoise.assessment.record_checks.flagged_rows import odd_row_findings
 from equipoise.assessment.record_checks.mass_flicker import flicker_findings
@@ -29,6 +33,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
     devices = testbed.device_names if testbed else None
     sensors = (None, None) if testbed is None else (testbed.attitude, testbed.gyro)
     up = None if testbed is None else testbed.up
+    offset = _offset(recording)
     return (
         *content_findings(recording),
         *unknown_name_findings("mass", recording.mass_names, masses),
@@ -45,12 +50,17 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *sampling_findings(recording.attitude, recording.rate),
         *saturation_findings(recording.rate),
         *body_findings(testbed),
-        *rotation_findings(recording.attitude, recording.rate),
-        *offset_findings(recording.attitude, recording.rate, *sensors),
+        *rotation_findings(recording.attitude, recording.rate, offset),
+        *offset_findings(offset, *sensors),
         *unstated_findings(recording, testbed),
         *(Finding("mended", (reason,)) for reason in (testbed.mended if testbed else ())),
         *(Finding("mended", one_reason(Why.SET_RIGHT, note)) for note in recording.notes),
     )
+
+
+def _offset(recording: Recording) -> ClockOffset | None:
+    attitude, rate = recording.attitude, recording.rate
+    return None if attitude is None or rate is None else clock_offset(attitude, rate)
 
 
 def lamp_findings(recording: Recording, testbed: Testbed | None) -> list[Finding]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.assessment.hypotheses.gyros import GyroGuess, Spans, gyro_guesses, span_rows
-from equipoise.assessment.record_checks.clock_offset import clock_offset
+from equipoise.assessment.record_checks.clock_offset import ClockOffset
 from equipoise.assessment.record_checks.gyro_consistency import (
     FEWEST,
     across_gap,
@@ -39,8 +39,13 @@ MOVES = 3.0  # times, of the attitude's sums over the gyro's misfit where nothin
 ZERO_OFF = 0.05 * DEG  # rad/s: a zero worth a finding (chosen)
 
 
-def rotation_findings(attitude: Samples | None, rate: Samples | None) -> list[Finding]:
-    """Return what is wrong with the gyro against the attitude, or that they agree."""
+def rotation_findings(
+    attitude: Samples | None, rate: Samples | None, offset: ClockOffset | None
+) -> list[Finding]:
+    """Return what is wrong with the gyro against the attitude, or that they agree.
+
+    ``offset`` is the delay that both show.
+    """
     if attitude is None or rate is None or min(len(attitude), len(rate)) < FEWEST:
         return []
     camera, gyro = rate_pairs(attitude, rate)
@@ -48,7 +53,7 @@ def rotation_findings(attitude: Samples | None, rate: Samples | None) -> list[Fi
         return [Finding("problem", one_reason(Why.NO_OVERLAP))]
     if repeats(camera, gyro):
         return [Finding("problem", one_reason(Why.RATES_DERIVED))]
-    compared = _compared(attitude, rate)
+    compared = _compared(attitude, rate, offset)
     if compared is None:
         return [Finding("content", one_reason(Why.TOO_LITTLE_MOTION))]
     wrong = compared.wrong()
@@ -128,13 +133,12 @@ class _Compared:
         return found
 
 
-def _compared(attitude: Samples, rate: Samples) -> _Compared | None:
+def _compared(attitude: Samples, rate: Samples, offset: ClockOffset | None) -> _Compared | None:
     """Return the comparison, at the delay that both show if that explains more; None if none can.
 
     Without a delay another reading may explain as much, and is the likelier.
     """
     prompt = _at_delay(attitude, rate, 0.0)
-    offset = clock_offset(attitude, rate)
     if prompt is None or offset is None:
         return prompt
     late = _at_delay(attitude, rate, offset.lag)

@@ -47,13 +47,9 @@ class ClockOffset:
 
 
 def offset_findings(
-    attitude: Samples | None,
-    rate: Samples | None,
-    camera: AttitudeSensor | None,
-    gyro: Gyro | None,
+    reported: ClockOffset | None, camera: AttitudeSensor | None, gyro: Gyro | None
 ) -> list[Finding]:
     """Return the lag, and whether it is what the testbed's delays and averaging make of it."""
-    reported = None if attitude is None or rate is None else clock_offset(attitude, rate)
     if reported is None:
         return []
     wanted = lateness(camera) - lateness(gyro)

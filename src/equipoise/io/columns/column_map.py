@@ -70,7 +70,7 @@ class ColumnMap:
     body: tuple[str, str, str] = ("x", "y", "z")  # our body axes in terms of the table's
     inverse: bool = False  # the attitude turns laboratory into body components
     mean_of_frames: bool = False  # rows may be means of several quaternions, hence short
-    native: bool = False  # our own files keep our own rules: time never goes back, no blank time
+    native: bool = False  # ours: no row is another clock's, time zero is as it stands
     notes: tuple[str, ...] = ()  # what the dialect left aside
     free_from: float | None = None  # s, when the platform was let go, where the file states it
     layout: Layout = Layout()

@@ -118,10 +118,11 @@ def _full_name(name: str, column: int, above: list[list[str]]) -> str:
 
 def _holds_data(row: list[str]) -> bool:
     cells = [cell for cell in row if cell.strip()]
-    return len(cells) > 1 and sum(map(_is_number, cells)) > SHARE * len(cells)
+    return len(cells) > 1 and sum(map(is_number, cells)) > SHARE * len(cells)
 
 
-def _is_number(cell: str) -> bool:
+def is_number(cell: str) -> bool:
+    """Say whether a cell is a number, with a point or a comma."""
     try:
         float(cell.replace(",", "."))
     except ValueError:

@@ -10,7 +10,6 @@ from equipoise.model.errors import InputError
 
 SEPARATORS = (";", "\t")  # sought before the comma, which may be a decimal comma
 HEAD_LINES = 50  # lines; chosen: more than any header has
-SAMPLE = 1 << 16  # characters in which the separator is sought (chosen)
 # What a serial terminal puts before each line: the clock of the day, and an arrow or a bracket.
 PREFIX = re.compile(r"\[?\d{1,2}:\d{2}:\d{2}([.,]\d+)?(\] ?| ?-> ?|\s+)")
 # As NumPy and MATLAB begin a header; a column %time is one of ROS.

@@ -16,6 +16,7 @@ from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.table import Table
 from equipoise.io.formats.compressed import LARGEST, ZIP
 from equipoise.io.formats.csv_table import table_of
+from equipoise.io.formats.header_rows import is_number
 from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.model.errors import EquipoiseError, InputError
 
@@ -102,15 +103,7 @@ def _text(value: object) -> str:
 
 
 def _holds_numbers(row: list[str]) -> bool:
-    return sum(map(_is_number, row)) > 1
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell.replace(",", "."))
-    except ValueError:
-        return False
-    return True
+    return sum(map(is_number, row)) > 1
 
 
 def _without_blank_columns(rows: Rows) -> Rows:
