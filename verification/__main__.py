@@ -54,6 +54,7 @@ from verification import (
     starts,
     tracker_honesty,
     tracker_knows,
+    vector_sensors,
     verdicts,
 )
 from verification.document import page, section, sections_of, table_of
@@ -74,6 +75,7 @@ class Check:
 CHECKS = {
     "independent_truth": Check(independent_truth.measure, 10),
     "mujoco_platforms": Check(mujoco_platforms.measure, 20),
+    "vector_sensors": Check(vector_sensors.measure, 200),
     "lagging_masses": Check(lagging_masses.measure, 40),
     "efficiency": Check(efficiency.measure, 2000),
     "laboratories": Check(laboratories.measure, 6),

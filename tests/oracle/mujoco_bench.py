@@ -358,6 +358,19 @@ def random_schedule(
     return tuple(Ramp(share * duration, _stable_targets(rng, platform)) for share in starts)
 
 
+def movable_platform(
+    rng: np.random.Generator, duration: float = 120.0
+) -> tuple[Platform, tuple[Ramp, ...]]:
+    """Return a random platform and a random schedule; one that has no stable move is left out."""
+    for _ in range(100):
+        platform = random_platform(rng)
+        try:
+            return platform, random_schedule(rng, platform, duration)
+        except RuntimeError:
+            continue
+    raise RuntimeError("no stable move found for any of 100 platforms")
+
+
 def _stable_targets(rng: np.random.Generator, platform: Platform) -> Array:
     k = len(platform.slides)
     for _ in range(10_000):

@@ -56,6 +56,22 @@ def test_bias_and_noise_are_as_stated(testbed):
     np.testing.assert_allclose(rows.sun.values.std(axis=0), 1e-3, rtol=0.2)
 
 
+def test_a_sensor_that_is_mounted_askew_gives_a_turned_vector(testbed):
+    """Turned by +90 deg about x, a sensor's y axis is the body's z."""
+    turn = np.array([np.pi / 2, 0.0, 0.0])
+    truth = {f"{name}_mounting": turn for name in ("accelerometer", "sun", "magnetometer")}
+    quiet = {
+        "accelerometer": Accelerometer(50.0, 0.0, 0.0),
+        "sun": SunSensor(5.0, 0.0, np.array([0.6, 0.0, 0.8])),
+        "magnetometer": Magnetometer(20.0, 0.0, 0.0),
+        "magnetic_field": MagneticField(FIELD),
+    }
+    rows = SimulatedBench(testbed(truth=truth, **quiet), 0).read(1.0)
+    np.testing.assert_allclose(rows.accelerometer.values[0], [0.0, 9.81, 0.0], atol=1e-9)
+    np.testing.assert_allclose(rows.sun.values[0], [0.6, 0.8, 0.0], atol=1e-12)
+    np.testing.assert_allclose(rows.field.values[0], [2e-5, -4e-5, 0.0], atol=1e-16)
+
+
 def test_a_late_row_is_that_of_a_moment_before(testbed):
     place = np.array([0.1, 0.05, 0.02])
     prompt, late = (

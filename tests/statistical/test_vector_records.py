@@ -24,7 +24,7 @@ WIDEST = 4.0  # sd: one of 15 000 numbers
 
 def errors_in_sd(seed, kit):
     """Return by how many sd com and inertia are off."""
-    platform, record, bed = case(seed, kit)
+    platform, record, bed, _ = case(seed, KITS[kit])
     found = reference_fit.estimate(record, bed, Params())
     sd = np.array([found.parameters[found.index(name)].sd for name in NAMES])
     true = np.concatenate([platform.com, pack_symmetric(platform.inertia_P)])
@@ -46,7 +46,7 @@ def test_each_further_sensor_tightens_the_estimate():
     """A lamp beside gravity shows the heading: com is known better, and so is its bias."""
     sd = {}
     for kit in KITS:
-        _, record, bed = case(1, kit)
+        _, record, bed, _ = case(1, KITS[kit])
         normal = fit(record, bed, Params()).at.normal
         sd[kit] = np.sqrt(np.diag(np.linalg.inv(normal)))[12:15]
     assert (sd["sun"] < 1.001 * sd["imu"]).all()
@@ -56,7 +56,7 @@ def test_each_further_sensor_tightens_the_estimate():
 @pytest.mark.parametrize("share", [0.3, 3.0])
 def test_a_noise_that_is_wrongly_stated_is_found(share):
     """The estimate is that with the true noise, within a tenth of an sd, and as sure."""
-    _, record, bed = case(1, "imu")
+    _, record, bed, _ = case(1, KITS["imu"])
     stated = replace(bed.accelerometer, noise=share * bed.accelerometer.noise)
     wrong = replace(bed, accelerometer=stated)
     right, found = (reference_fit.estimate(record, each, Params()) for each in (bed, wrong))

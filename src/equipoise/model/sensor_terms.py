@@ -17,13 +17,17 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "gyro_cross": ("gyro_xy", "gyro_xz", "gyro_yx", "gyro_yz", "gyro_zx", "gyro_zy"),
     GYRO_CLOCK: (GYRO_CLOCK,),
 }
-# By channel; each is sought wherever its channel is used.
+# By channel; each is sought wherever its channel is used and its sd is not 0.
 BIASES: dict[str, tuple[str, ...]] = {
     channel: tuple(f"{channel}_bias_{axis}" for axis in "xyz")
     for channel in ("accelerometer", "field")
 }
+MOUNTINGS: dict[str, tuple[str, ...]] = {
+    channel: tuple(f"{channel}_mounting_{axis}" for axis in "xyz")
+    for channel in ("accelerometer", "sun", "field")
+}
 TERMS: tuple[str, ...] = tuple(
-    term for groups in (GROUPS, BIASES) for group in groups.values() for term in group
+    term for groups in (GROUPS, BIASES, MOUNTINGS) for group in groups.values() for term in group
 )
 UNITS: dict[str, str] = {
     "plumb": "rad", "heading2": "rad", "heading3": "rad", "camera": "s", "gyro": "1",
@@ -39,4 +43,6 @@ def among(names: Iterable[str]) -> tuple[str, ...]:
 
 def unit_of(term: str) -> str:
     """Return the SI unit of a term's coefficient."""
+    if any(term in terms for terms in MOUNTINGS.values()):
+        return "rad"
     return UNITS[term.split("_")[0]]

@@ -147,6 +147,9 @@ class Truth:
     drives: tuple[TrueDrive, ...] = ()
     accelerometer_bias: Vector3 = field(default_factory=nothing)  # m/s^2
     magnetometer_bias: Vector3 = field(default_factory=nothing)  # T
+    accelerometer_mounting: Vector3 = field(default_factory=nothing)  # rad, rotation vector
+    sun_mounting: Vector3 = field(default_factory=nothing)  # rad
+    magnetometer_mounting: Vector3 = field(default_factory=nothing)  # rad
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

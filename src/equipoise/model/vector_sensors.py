@@ -1,6 +1,7 @@
 """Sensors that see a vector of the laboratory in body axes: gravity, a lamp, the magnetic field.
 
-All are aligned with the body axes, as the gyro is: a column map turns what is mounted otherwise.
+All are aligned with the body axes, as the gyro is, but for a small turn that nobody measured: a
+column map turns what is mounted otherwise.
 """
 
 from dataclasses import dataclass, field
@@ -18,6 +19,7 @@ class Accelerometer:
     bias_sd: float  # m/s^2, how far its zero may be off
     place: Vector3 = field(default_factory=nothing)  # m, from P
     delay: float = 0.0  # s
+    mounting_sd: float = 0.0  # rad, of its axes about each body axis, one sd; 0: exact
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,6 +30,7 @@ class SunSensor:
     noise: float  # -, one sd per axis and sample, of a unit vector
     direction_N: Vector3  # unit vector to the lamp, laboratory axes
     delay: float = 0.0  # s
+    mounting_sd: float = 0.0  # rad, as of an accelerometer
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,3 +41,4 @@ class Magnetometer:
     noise: float  # T, one sd per axis and sample
     bias_sd: float  # T, how far its zero may be off
     delay: float = 0.0  # s
+    mounting_sd: float = 0.0  # rad, as of an accelerometer

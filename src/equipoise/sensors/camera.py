@@ -22,9 +22,9 @@ from equipoise.maths.compiled import kernel, part
 from equipoise.maths.turns import to_body, to_laboratory, turned
 from equipoise.model.arrays import Floats, Triple
 
-# Where a list of coefficients keeps each; the biases behind the clock are of sensors of vectors.
+# Where a list of coefficients keeps each; those behind the clock are of sensors of vectors.
 PLUMB, HEADING, DELAY, GYRO, CLOCK = 0, 2, 14, 15, 24
-N_SENSOR = 31
+N_SENSOR = 40
 
 
 class Seeing(NamedTuple):

@@ -1,6 +1,8 @@
 """What sensors see of a vector of the laboratory.
 
-    y = R^T v_N + w' x p + w x (w x p) + b        R: body to laboratory;  p: place, from P
+    y = M^T ( R^T v_N + w' x p + w x (w x p) ) + b    R: body to laboratory;  p: place, from P
+
+M = exp(m) turns the sensor's axes into those of the body; m is small, and sought.
 
     accelerometer   v_N = g e_z      specific force: at rest g upwards; b sought
     sun sensor      v_N = s_N        unit vector to a lamp; p = 0, b = 0
@@ -32,6 +34,7 @@ class VectorSensor:
     delay: float  # s
     vector_N: Vector3  # SI, laboratory axes
     place: Vector3  # m, from P; zeros where it makes no difference
+    mounting_sd: float = 0.0  # rad, of each component of m
 
 
 def vector_sensors(testbed: Testbed) -> tuple[VectorSensor, ...]:
@@ -55,11 +58,12 @@ def _vector_sensor(
     vector_N: Vector3,
     place: Vector3,
 ) -> VectorSensor:
-    return VectorSensor(channel, sensor.rate, sensor.noise, bias_sd, sensor.delay, vector_N, place)
+    return VectorSensor(channel, sensor.rate, sensor.noise, bias_sd, sensor.delay, vector_N, place,
+                        sensor.mounting_sd)  # fmt: skip
 
 
 def vectors_in_body(sensor: VectorSensor, q: Series4, w: Series3, change: Series3) -> Series3:
-    """Return what a sensor without bias and noise sees, (n, 3) SI.
+    """Return what a sensor without bias and noise sees, (n, 3) SI, in body axes.
 
     At attitudes q, rates w (rad/s) and ``change`` of the rates w' (rad/s^2).
     """

@@ -38,6 +38,7 @@ from equipoise.simulation import actuator
 from equipoise.simulation.camera_and_gyro import (
     Sensor,
     camera_rows,
+    errors_of,
     gyro_rows,
     lead,
     outside,
@@ -285,9 +286,9 @@ class SimulatedBench:
         """Return the rows of a sensor of a vector, stamped after a time (s)."""
         truth, stamps = self.platform.truth, samples(sensor.rate, after, self._time)
         at = np.searchsorted(t, sampled_at(sensor, stamps))
-        biases = {"accelerometer": truth.accelerometer_bias, "field": truth.magnetometer_bias}
-        bias, rng = biases.get(sensor.channel, np.zeros(3)), self._vector_rngs[sensor.channel]
-        rows = vector_rows(path.y[at, :4], path.rate[at], sensor, bias, rng)
+        off = errors_of(sensor.channel, truth)
+        rng = self._vector_rngs[sensor.channel]
+        rows = vector_rows(path.y[at, :4], path.rate[at], sensor, off, rng)
         kept = outside(stamps, truth.gaps)
         return Samples(stamps[kept], rows[kept])
 

@@ -5,7 +5,7 @@ t - delay], by Gauss-Legendre quadrature with five samples; without averaging th
 
     attitude   q (x) exp(noise)      mean attitude: mean rotation vector from the middle sample
     rate       w + bias + noise
-    vectors    of ``sensors.vector_sensors`` + bias + noise, without averaging
+    vectors    of ``sensors.vector_sensors`` in the sensor's axes + bias + noise, no averaging
 
 An accelerometer takes w' from the rates at its sample and 1 and 2 ms before: the parabola through
 them. A mass that starts or stops thus shakes it for 2 ms.
@@ -14,13 +14,14 @@ What else is wrong with them is in ``sensor_errors``.
 """
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.maths.attitude import difference, exponential, multiply, to_matrix
 from equipoise.model.arrays import Bools, Floats, Series1, Series3, Series4, Vector3
 from equipoise.model.defects import Gap
-from equipoise.model.testbed import AttitudeSensor, Gyro
+from equipoise.model.testbed import AttitudeSensor, Gyro, Truth
 from equipoise.sensors.vector_sensors import VectorSensor, vectors_in_body
 from equipoise.simulation.clock import samples, tick
 
@@ -83,11 +84,29 @@ def gyro_rows(w: Floats, sensor: Gyro, bias: Vector3, rng: np.random.Generator) 
     return mean + bias + sensor.noise * rng.standard_normal((len(w), 3))
 
 
+class VectorErrors(NamedTuple):
+    """What a sensor of a vector gets wrong beside noise."""
+
+    bias: Vector3  # SI
+    mounting: Vector3  # rad, rotation vector from body axes to the sensor's
+
+
+def errors_of(channel: str, truth: Truth) -> VectorErrors:
+    """Return what a sensor of the bench is off by."""
+    return {
+        "accelerometer": VectorErrors(truth.accelerometer_bias, truth.accelerometer_mounting),
+        "sun": VectorErrors(np.zeros(3), truth.sun_mounting),
+        "field": VectorErrors(truth.magnetometer_bias, truth.magnetometer_mounting),
+    }[channel]
+
+
 def vector_rows(
-    q: Floats, w: Floats, sensor: VectorSensor, bias: Vector3, rng: np.random.Generator
+    q: Floats, w: Floats, sensor: VectorSensor, off: VectorErrors, rng: np.random.Generator
 ) -> Series3:
     """Return measured vectors from attitudes (n, 1 or 3, 4) and rates (n, 1 or 3, 3) at samples."""
     still = np.zeros_like(w[:, 0])
     change = np.einsum("j,njk->nk", SLOPE, w) if w.shape[1] == len(SLOPE) else still
-    vectors = vectors_in_body(sensor, q[:, 0], w[:, 0], change)
-    return vectors + bias + sensor.noise * rng.standard_normal(vectors.shape)
+    vectors = vectors_in_body(sensor, q[:, 0], w[:, 0], change) @ to_matrix(
+        exponential(off.mounting)
+    )
+    return vectors + off.bias + sensor.noise * rng.standard_normal(vectors.shape)

@@ -158,11 +158,12 @@ def test_two_boundaries_at_once():
 
 def test_a_point_is_kept_flat_and_found_again():
     """The order is that of the record's fields."""
-    numbers = np.arange(70.0)
+    error = 16 + N_TORQUES + N_SENSOR
+    numbers = np.arange(error + 4.0)
     parts = unknowns_of(numbers)
     assert parts.flat.tolist() == numbers.tolist()
     assert (parts.q0[0], parts.w0[0], parts.six[0], parts.com[0]) == (0.0, 4.0, 7.0, 13.0)
-    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [66.0], 67.0)
+    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [error], error + 1)
 
 
 def test_names_units_and_coordinates_have_one_length():

@@ -15,7 +15,7 @@ from equipoise.dynamics.lamp_warmth import temperature_of
 from equipoise.dynamics.propagation import stacked
 from equipoise.dynamics.sensitivities import Columns
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, place, timeline
-from equipoise.estimation.motion.observed_vectors import bias_at, observed
+from equipoise.estimation.motion.observed_vectors import bias_at, mounting_at, observed
 from equipoise.estimation.output_error.kernels.gauss_newton import Posed
 from equipoise.estimation.output_error.kernels.normal_equations import Measurements
 from equipoise.estimation.output_error.kernels.parts import parts_of
@@ -229,6 +229,7 @@ def vectors_of(recording: Recording, testbed: Testbed, t: Series1) -> Vectors:
         rows_of_three([each.place for each in sensors]),
         np.array([each.noise for each in sensors], dtype=np.float64),
         np.array([bias_at(each) for each in sensors], dtype=np.int64),
+        np.array([mounting_at(each) for each in sensors], dtype=np.int64),
     )
 
 

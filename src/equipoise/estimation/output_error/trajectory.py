@@ -4,10 +4,10 @@
               + sum |v_meas - v_pred - b_v|^2 / sd_v^2 + priors
 
 (v: what an accelerometer, a sun sensor or a magnetometer gives) over first attitude and rate, J,
-com, torque coefficients, the sensors' biases, and where the masses really stop, through every known
-move in the record (Ivanov 2021 section 3 with errata I1-I6, I15: all about P, multiplicative
-residual, first attitude free, realised displacements as unknowns with their accuracy as prior).
-J moves in log-Cholesky coordinates and is always possible.
+com, torque coefficients, the sensors' biases and mountings, and where the masses really stop,
+through every known move in the record (Ivanov 2021 section 3 with errata I1-I6, I15: all about P,
+multiplicative residual, first attitude free, realised displacements as unknowns with their accuracy
+as prior). J moves in log-Cholesky coordinates and is always possible.
 
 Starts from the linear methods; where these are too wrong, the horizon grows (``growing_horizon``).
 Reaches the Cramer-Rao bound when the model holds; the outcome says when it does not.
@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.actuators.mass_errors import MassErrors
-from equipoise.estimation.motion.observed_vectors import bias_terms
+from equipoise.estimation.motion.observed_vectors import errors_of_vectors
 from equipoise.estimation.motion.sensor_noise import (
     camera_noise,
     gyro_noise,
@@ -100,7 +100,7 @@ def layout_with(
     errors: MassErrors, recording: Recording, testbed: Testbed, params: Params
 ) -> Layout:
     """Return the unknowns of a record whose masses may be off in this way."""
-    sensor = sensor_terms.among((*params.sensor, *bias_terms(recording, testbed)))
+    sensor = sensor_terms.among((*params.sensor, *errors_of_vectors(recording, testbed)))
     layout = Layout(params.terms, errors.names, recording.rate is not None, sensor)
     for name in params.hold:
         if name not in layout.names[6:15]:

@@ -119,7 +119,7 @@ class Unknowns:
     six: Vector6  # of J_C, masses at home
     com: Vector3  # m, masses at home
     torque: Floats  # (19,)
-    sensor: Floats  # (31,)
+    sensor: Floats  # (40,)
     error: Floats  # (e,) in the units of ``mass_errors.unit_of``
     bias: Vector3  # rad/s
 
@@ -155,17 +155,18 @@ def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
 def sensor_sizes(terms: tuple[str, ...], testbed: Testbed) -> Floats:
     """Return how large each sensor coefficient may well be, one sd, chosen.
 
-    A camera's vertical, a gyro's clock and biases as far off as stated, each part of a heading
-    error 0.06 deg, 30 ms, a gyro 2 % off.
+    A camera's vertical, a gyro's clock, biases and mountings as far off as stated, each part of a
+    heading error 0.06 deg, 30 ms, a gyro 2 % off.
     """
     camera, gyro = testbed.attitude, testbed.gyro
     plumb = camera.plumb_sd if camera and camera.plumb_sd else PLUMB_SD
     clock = gyro.clock_sd if gyro and gyro.clock_sd else CLOCK_SD
-    biases = {each.channel: each.bias_sd for each in vector_sensors(testbed) if each.bias_sd}
-    by_group = {"plumb": plumb, "heading2": 1e-3, "heading3": 1e-3, "camera": 0.03, "gyro": 0.02,
-                **biases}  # fmt: skip
-    sizes = by_group | {sensor_terms.GYRO_CLOCK: clock}
-    return np.array([sizes.get(term, sizes[term.split("_")[0]]) for term in terms])
+    by_group = {"plumb": plumb, "heading2": 1e-3, "heading3": 1e-3, "camera": 0.03, "gyro": 0.02}
+    by_term = {sensor_terms.GYRO_CLOCK: clock}
+    for each in vector_sensors(testbed):
+        by_term |= dict.fromkeys(sensor_terms.BIASES.get(each.channel, ()), each.bias_sd)
+        by_term |= dict.fromkeys(sensor_terms.MOUNTINGS[each.channel], each.mounting_sd)
+    return np.array([by_term.get(term) or by_group[term.split("_")[0]] for term in terms])
 
 
 def physical(point: Unknowns, mass: float, layout: Layout) -> Floats:

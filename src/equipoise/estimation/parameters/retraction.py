@@ -2,7 +2,7 @@
 
 A point is one flat array
 
-    [ q0 (4) | w0 (3) | six (6) | com (3) | torque (19) | sensors (31) | displacement errors
+    [ q0 (4) | w0 (3) | six (6) | com (3) | torque (19) | sensors (40) | displacement errors
       | gyro bias (3) ]
 
 with the inertia as the six numbers of ``maths.pseudo_inertia``, so that it is a body that can
@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import Body, times
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.eigen import eigen
@@ -25,8 +26,11 @@ from equipoise.maths.pseudo_inertia import FLOOR, exceeds, inertia_of, second_mo
 from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints, Six, Triple
+from equipoise.sensors.camera import N_SENSOR
 
-W, SIX, COM, TORQUE, SENSOR, ERROR = 4, 7, 13, 16, 35, 66  # where a point keeps what is behind q0
+W, SIX, COM, TORQUE = 4, 7, 13, 16  # where a point keeps what is behind q0
+SENSOR = TORQUE + N_TORQUES
+ERROR = SENSOR + N_SENSOR
 J, R, BEHIND = 6, 12, 15  # first coordinate of J_P, of com, of what is behind it
 ATTEMPTS = 8  # chosen: at steps along a boundary that is bent
 

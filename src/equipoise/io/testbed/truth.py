@@ -137,6 +137,11 @@ class Truth(RecordTable):
     gyro_bias_deg_s: Triple = Field(ZEROS)
     accelerometer_bias_m_s2: Triple = Field(ZEROS)
     magnetometer_bias_uT: Triple = Field(ZEROS)
+    accelerometer_mounting_deg: Triple = Field(
+        ZEROS, description="rotation vector from body axes to the accelerometer's"
+    )
+    sun_mounting_deg: Triple = Field(ZEROS)
+    magnetometer_mounting_deg: Triple = Field(ZEROS)
     gyro_scale_percent: Annotated[Triple, Holds("gyro.scale")] = Field(
         ZEROS, description="each axis reads so much more"
     )

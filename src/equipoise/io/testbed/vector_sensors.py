@@ -8,6 +8,10 @@ from equipoise.io.toml.key_types import Direction, Holds, NotNegative, Positive,
 from equipoise.io.toml.table_records import RecordTable
 from equipoise.model import vector_sensors as model
 
+MOUNTING_SD: float = Field(
+    0.5, description="one sd of its axes about each body axis, chosen: a chip's, or a bracket's"
+)
+
 
 class Accelerometer(RecordTable):
     """An accelerometer triad; at rest it gives g upwards (columns accel_x_m_s2 ...)."""
@@ -19,6 +23,7 @@ class Accelerometer(RecordTable):
     bias_sd_m_s2: NotNegative = Field(0.2, description="chosen: 20 mg, usual for a low-cost MEMS")
     place_mm: Triple = Field([0.0, 0.0, 0.0], description="from the centre of rotation")
     delay_s: NotNegative = 0.0
+    mounting_sd_deg: NotNegative = MOUNTING_SD
 
 
 class Sun(RecordTable):
@@ -32,6 +37,7 @@ class Sun(RecordTable):
         description="to the lamp, laboratory axes, z up"
     )
     delay_s: NotNegative = 0.0
+    mounting_sd_deg: NotNegative = MOUNTING_SD
 
 
 class Magnetometer(RecordTable):
@@ -43,3 +49,4 @@ class Magnetometer(RecordTable):
     noise_uT: Positive = Field(description="one sd per axis and sample")
     bias_sd_uT: NotNegative = Field(1.0, description="chosen: what a calibration leaves")
     delay_s: NotNegative = 0.0
+    mounting_sd_deg: NotNegative = MOUNTING_SD

@@ -44,7 +44,7 @@ SENSOR = np.concatenate([
     [0.02],  # s of delay
     [0.010, -0.020, 0.015, 0.004, -0.006, 0.008, -0.003, 0.005, 0.007],
     [0.0],  # of the gyro's clock: see below
-    np.zeros(6),  # biases of sensors of vectors: see ``test_vector_rows``
+    np.zeros(N_SENSOR - CLOCK - 1),  # of sensors of vectors: see ``test_vector_rows``
 ])  # fmt: skip
 
 

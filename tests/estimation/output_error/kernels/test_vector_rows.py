@@ -12,10 +12,10 @@ import pytest
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.estimation.parameters.fit_parameters import physical
-from equipoise.maths.attitude import to_matrix
+from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.devices import MagneticField
 from equipoise.model.recording import Samples
-from equipoise.model.sensor_terms import BIASES, TERMS
+from equipoise.model.sensor_terms import BIASES, MOUNTINGS, TERMS
 from equipoise.model.torque_terms import TERMS as TORQUES
 from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 from equipoise.sensors.camera import N_SENSOR
@@ -39,6 +39,7 @@ from tests.support.plain_problem import stepped, with_errors
 PLACE, LAMP = np.array([0.3, -0.2, 0.15]), np.array([0.6, 0.0, 0.8])
 FIELD, SOON = np.array([2e-5, 5e-6, -4e-5]), 5e-4
 OFF = {"accelerometer": [0.02, -0.01, 0.03], "field": [1e-7, -2e-7, 3e-7]}
+TURNED = {"accelerometer": [1e-3, -1e-3, 5e-4], "sun": [-0.01, 0.005, 0.015]}  # rad
 SD = {"accelerometer": 1e-5, "sun": 1e-3, "field": 1e-7}
 END, DELAY = 20.0, 0.013
 
@@ -51,8 +52,8 @@ def seeing():
         attitude=replace(plain.attitude, noise=1e3),
         gyro=replace(plain.gyro, noise=1e3),
         magnetic_field=MagneticField(FIELD),
-        accelerometer=Accelerometer(20.0, SD["accelerometer"], 0.1, PLACE, DELAY),
-        sun=SunSensor(5.0, SD["sun"], LAMP),
+        accelerometer=Accelerometer(20.0, SD["accelerometer"], 0.1, PLACE, DELAY, 0.01),
+        sun=SunSensor(5.0, SD["sun"], LAMP, mounting_sd=0.02),
         magnetometer=Magnetometer(10.0, SD["field"], 1e-6),
     )
 
@@ -77,6 +78,9 @@ def posed():
     for channel, off in OFF.items():
         first = TERMS.index(BIASES[channel][0])
         sensor[first : first + 3] = off
+    for channel, turn in TURNED.items():
+        first = TERMS.index(MOUNTINGS[channel][0])
+        sensor[first : first + 3] = turn
     return problem, somewhere(len(problem.layout.errors), sensor)
 
 
@@ -93,11 +97,14 @@ def vectors_by_numpy(problem, point):
     R, w = to_matrix(motion.q[here]), motion.rate[here]
     turning = (motion.rate[after] - motion.rate[before]) / (line.t[after] - line.t[before])[:, None]
     k = observed.sensor
-    vector_N, p, bias = observed.vector_N[k], observed.place[k], np.zeros((len(k), 3))
-    for i, channel in enumerate(("accelerometer", "sun", "field")):
-        bias[k == i] = OFF.get(channel, [0.0] * 3)
+    vector_N, p = observed.vector_N[k], observed.place[k]
     level = np.einsum("nji,nj->ni", R, vector_N)
-    return t, level + np.cross(turning, p) + np.cross(w, np.cross(w, p)) + bias
+    force = level + np.cross(turning, p) + np.cross(w, np.cross(w, p))
+    said = np.empty_like(force)
+    for i, channel in enumerate(("accelerometer", "sun", "field")):
+        mounting = to_matrix(exponential(np.array(TURNED.get(channel, [0.0] * 3))))
+        said[k == i] = force[k == i] @ mounting + OFF.get(channel, [0.0] * 3)
+    return t, said
 
 
 def test_every_row_is_there_in_order(posed):
@@ -105,7 +112,9 @@ def test_every_row_is_there_in_order(posed):
     observed = problem.observed.vectors
     assert np.bincount(observed.sensor).tolist() == [199, 100, 99]
     assert (np.diff(observed.node) >= 0).all()
-    assert {*BIASES["accelerometer"], *BIASES["field"]} <= set(problem.layout.names)
+    sought = {*BIASES["accelerometer"], *BIASES["field"], *MOUNTINGS["accelerometer"],
+              *MOUNTINGS["sun"]}  # fmt: skip
+    assert sought == {name for name in problem.layout.names if name in TERMS}
 
 
 def test_rows_are_predicted_as_by_plain_numpy(posed):

@@ -46,9 +46,12 @@ from equipoise.dynamics.sensitivities import BLOCK, LANES, SPAN, Inputs, Work, d
 from equipoise.estimation.output_error.kernels.vector_rows import (
     Vectors,
     acceleration_columns,
-    bias_columns,
     by_turning,
+    error_columns,
     is_aside,
+    mounted,
+    mounted_columns,
+    mounting_of,
     plus,
     row_at,
     turn_columns,
@@ -277,8 +280,12 @@ def see_vector(
         slope(body, now, w, g, step.at, step, step.dy)
         turning = acceleration_columns(now, inputs, i, share, p, w, step, scale, S)
         u = plus(u, by_turning(p, w, turning))
-    bias_columns(data.terms, int(vectors.bias[k]), n, scale, S)
-    return weigh(vector_residual(vectors, row, sensor, u, scale), limit, S, work, left)
+    m = mounting_of(vectors, k, sensor)
+    if vectors.mounting[k] >= 0:
+        mounted_columns(m, n, S)
+    error_columns(vectors, k, data.terms, m, u, n, scale, S)
+    said = mounted(m, u)
+    return weigh(vector_residual(vectors, row, sensor, said, scale), limit, S, work, left)
 
 
 @part

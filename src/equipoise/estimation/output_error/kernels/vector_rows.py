@@ -1,10 +1,13 @@
 """Rows of sensors that see a vector of the laboratory: accelerometer, sun sensor, magnetometer.
 
-    y  = u + w' x p + w x (w x p) + b,         u = R^T v_N          (``sensors.vector_sensors``)
-    dy = u x dth + dw' x p + dw x (w x p) + w x (dw x p) + db
+    y  = M^T f + b,    f = u + w' x p + w x (w x p),    u = R^T v_N     (``sensors.vector_sensors``)
+    dy = M^T ( u x dth + dw' x p + dw x (w x p) + w x (dw x p) ) + dM^T f + db
 
-dth is the turn of the attitude, body axes, and dw' follows from the same columns as the motion
-(``dynamics.angular_acceleration``): an accelerometer away from P also sees inertia and torque.
+    M^T f = f - m x f + m x (m x f) / 2,     dM^T f = -dm x f + ( dm x (m x f) + m x (dm x f) ) / 2
+
+(wrong by m^3 / 6: 1e-6 at 1 deg). dth is the turn of the attitude, body axes, and dw' follows
+from the same columns as the motion (``dynamics.angular_acceleration``): an accelerometer away from
+P also sees inertia and torque.
 """
 
 from typing import NamedTuple
@@ -32,6 +35,7 @@ class Vectors(NamedTuple):
     place: Floats  # (k, 3) m
     sd: Floats  # (k,) SI
     bias: Ints  # (k,) where a list of coefficients has its bias; -1: it has none
+    mounting: Ints  # (k,) likewise its mounting
 
 
 @part
@@ -96,12 +100,55 @@ def acceleration_columns(
 
 
 @part
-def bias_columns(terms: Ints, bias: int, n: int, scale: float, S: Floats) -> None:
-    """Write the columns of the sensors' coefficients behind n others: 1 of this bias, else 0."""
+def mounting_of(vectors: Vectors, k: int, sensor: Floats) -> Triple:
+    """Return m of sensor k, rad."""
+    first = int(vectors.mounting[k])
+    if first < 0:
+        return (0.0, 0.0, 0.0)
+    return (float(sensor[first]), float(sensor[first + 1]), float(sensor[first + 2]))
+
+
+@part
+def mounted(m: Triple, f: Triple) -> Triple:
+    """Return M^T f."""
+    once = cross(m, f)
+    twice = cross(m, once)
+    return (f[0] - once[0] + 0.5 * twice[0], f[1] - once[1] + 0.5 * twice[1],
+            f[2] - once[2] + 0.5 * twice[2])  # fmt: skip
+
+
+@part
+def mounted_more(m: Triple, axis: int, f: Triple) -> Triple:
+    """Return the change of M^T f by a component of m."""
+    e = (1.0 * (axis == 0), 1.0 * (axis == 1), 1.0 * (axis == 2))
+    first, one, other = cross(e, f), cross(e, cross(m, f)), cross(m, cross(e, f))
+    return (0.5 * (one[0] + other[0]) - first[0], 0.5 * (one[1] + other[1]) - first[1],
+            0.5 * (one[2] + other[2]) - first[2])  # fmt: skip
+
+
+@part
+def mounted_columns(m: Triple, n: int, S: Floats) -> None:
+    """Turn n columns into a sensor's axes."""
+    for c in range(n):
+        i = spot(c)
+        x = mounted(m, (S[i], S[i + LANES], S[i + 2 * LANES]))
+        S[i], S[i + LANES], S[i + 2 * LANES] = x[0], x[1], x[2]
+
+
+@part
+def error_columns(
+    vectors: Vectors, k: int, terms: Ints, m: Triple, f: Triple, n: int, scale: float, S: Floats
+) -> None:
+    """Write the columns of all sensors' coefficients behind n others: those of sensor k, else 0."""
+    bias, mounting = vectors.bias[k], vectors.mounting[k]
     for j in range(terms.shape[0]):
-        i = spot(n + j)
-        for axis in range(3):
-            S[i + axis * LANES] = scale * (bias >= 0 and terms[j] == bias + axis)
+        i, axis, turn = spot(n + j), terms[j] - bias, terms[j] - mounting
+        x = (0.0, 0.0, 0.0)
+        if bias >= 0 and 0 <= axis < 3:
+            x = (1.0 * (axis == 0), 1.0 * (axis == 1), 1.0 * (axis == 2))
+        elif mounting >= 0 and 0 <= turn < 3:
+            x = mounted_more(m, turn, f)
+        S[i], S[i + LANES], S[i + 2 * LANES] = scale * x[0], scale * x[1], scale * x[2]
 
 
 @part
