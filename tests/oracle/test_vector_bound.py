@@ -16,7 +16,7 @@ pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 from equipoise.maths.linalg import unpack_symmetric
 from tests.oracle import mujoco_bench as oracle
 from tests.oracle.inertial_sensors import accelerometer, vector
-from tests.oracle.vector_records import LAMP, LEE, PLACE, case
+from tests.oracle.vector_records import LAMP, LEE, PLACE, case, movable
 from verification.vector_sensors import bound_of
 
 SECONDS, SEED = 40.0, 5
@@ -55,7 +55,7 @@ def by_errors(clean):
 def test_the_bound_is_that_of_differences_of_whole_runs():
     """Within 1 %, where it is known at which moment between two rows each mass departs."""
     record = case(SEED, LEE, SECONDS)
-    platform, schedule = oracle.movable_platform(np.random.default_rng([SEED, 77]), SECONDS)
+    platform, schedule = movable(np.random.default_rng([SEED, 77]), SECONDS)
     np.testing.assert_array_equal(platform.com, record.platform.com)
     clean = clean_rows(platform, schedule)
     moved = [clean_rows(changed(platform, k), schedule) for k in range(15)]

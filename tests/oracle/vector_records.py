@@ -1,6 +1,8 @@
 """Records of platforms without a camera: gyro and sensors of vectors of an oracle run.
 
-The accelerometer's rows are MuJoCo's own sensor; the masses move, so that the scale is known.
+The accelerometer's rows are MuJoCo's own sensor; the masses move, so that the scale is known. They
+depart at any moment between two rows of their log, and travel at constant speed, so that what a
+fit takes for unknown is.
 """
 
 from dataclasses import replace
@@ -27,6 +29,7 @@ class Kit(NamedTuple):
 
 
 PLACE, FIELD = np.array([0.08, -0.05, 0.06]), np.array([2e-5, 3e-6, -4e-5])
+MASS_RATE = 50.0  # Hz
 LAMP = np.array([0.8, 0.0, 0.6])
 FINE = Kit(Gyro(50.0, np.deg2rad(0.02), np.deg2rad(0.5)), Accelerometer(50.0, 0.02, 0.1, PLACE))
 ASKEW = np.deg2rad(0.5)  # of the axes of a sensor
@@ -51,6 +54,17 @@ class Case(NamedTuple):
     recording: Recording
     testbed: Testbed
     errors: dict[str, Array]  # coefficients of each sensor, by the names that a fit gives them, SI
+
+
+def movable(
+    rng: np.random.Generator, duration: float
+) -> tuple[oracle.Platform, tuple[oracle.Ramp, ...]]:
+    """Return a random platform and its moves."""
+    platform, schedule = oracle.movable_platform(rng, duration)
+    late = rng.uniform(0.0, 1 / MASS_RATE, len(schedule))
+    moves = [replace(ramp, start=ramp.start + by, even=True)
+             for ramp, by in zip(schedule, late, strict=True)]  # fmt: skip
+    return platform, tuple(moves)
 
 
 def true_errors(kit: Kit, rng: np.random.Generator) -> dict[str, Array]:
@@ -94,11 +108,11 @@ def vector_rows(
 def case(seed: int, kit: Kit, duration: float = 120.0) -> Case:
     """Return a random platform that swings and is moved, as seen by a kit of sensors."""
     rng = np.random.default_rng([seed, 77])
-    platform, schedule = oracle.movable_platform(rng, duration)
+    platform, schedule = movable(rng, duration)
     run = oracle.simulate(platform, schedule, duration)
     errors = true_errors(kit, rng)
     record = oracle.sensor_log(
-        run, rng, 5.0, 0.0, kit.gyro.rate, kit.gyro.noise, errors["gyro_bias"]
+        run, rng, 5.0, 0.0, kit.gyro.rate, kit.gyro.noise, errors["gyro_bias"], MASS_RATE
     )
     bed = replace(
         oracle.testbed_for(platform, rng, gyro=kit.gyro),

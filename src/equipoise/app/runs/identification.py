@@ -54,7 +54,8 @@ def run(
     Raises InputError for a method or a held parameter that does not exist, Implausible for a record
     that no estimate can stand, unless it is forced.
     """
-    found = gate.findings(recording, testbed)
+    with waiting.doing("examining the recording"):
+        found = gate.findings(recording, testbed)
     steps = list(waiting.steps(identify(recording, testbed, options), "identifying"))
     last = steps[-1].estimate
     happened = [] if last is None else event_findings(last)

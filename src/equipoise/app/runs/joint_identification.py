@@ -81,7 +81,8 @@ def run(
     """
     if len(recordings) < FEWEST:
         raise InputError("recordings", f"{len(recordings)}", "two or more for a joint fit")
-    held = [gate.findings(each, testbed) for each in recordings]
+    with waiting.doing("examining the recordings"):
+        held = [gate.findings(each, testbed) for each in recordings]
     ended = list[JointEstimate]()
 
     def steps() -> Iterator[Step]:
