@@ -54,6 +54,13 @@ class Imported:
             return alike[number - 1]
         return alike[0] if self.ranked.decided else self.by_header
 
+    def left_aside(self, columns: ColumnMap) -> tuple[str, ...]:
+        """Return the columns of the table that a map does not take."""
+        if columns.native:
+            return ()  # whose notes name them
+        parts = {part for name in columns.names for part in name.split(AND)}
+        return tuple(name for name in self.table.names if name and name not in parts)
+
     def map_keys(self, reading: TableReading, up: str) -> dict[str, Any]:
         """Return a reading as a column map file has it; the platform's axis ``up`` stands.
 
