@@ -14,6 +14,7 @@ from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.column_map_file import MapFile, column_map_of
 from equipoise.io.columns.dialects import detect
 from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.columns.sentinels import sentinel_rows
 from equipoise.io.columns.table import Numbers, Table
 from equipoise.io.columns.text_times import FORMATS, with_times_as_numbers
 from equipoise.io.recording.channels import read_time
@@ -184,11 +185,18 @@ def _numbers(table: Table) -> tuple[NumberTable, dict[str, str]]:
             continue
         numbers = table.numbers(name)
         if len(numbers.garbage) <= (1 - MOSTLY) * len(table):
-            found[name] = numbers.values
+            found[name] = _readings(numbers.values)
         elif (written := _time_format(table, name)) is not None:
             formats[name], found[name] = written
     values = np.stack(list(found.values()), axis=1) if found else np.zeros((len(table), 0))
     return NumberTable(tuple(found), values, _units(table, tuple(found))), formats
+
+
+def _readings(values: Series1) -> Series1:
+    """Return a column without the numbers that stand for no reading."""
+    known = values.copy()
+    known[sentinel_rows(values)] = np.nan
+    return known
 
 
 def _units(table: Table, names: tuple[str, ...]) -> tuple[str, ...]:
