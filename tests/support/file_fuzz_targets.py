@@ -26,6 +26,7 @@ from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 from tests.support import flight_logs
 from tests.support.byte_captures import datagram_packet, pcap, pcapng, telemetry
+from tests.support.column_map_fuzz import mapped_table
 from tests.support.excel_files import RATE_SHEET, archive, workbook
 from tests.support.flight_logs import terminal
 from tests.support.fuzz_target import Target
@@ -255,6 +256,7 @@ TARGETS = (
     Target("testbed", lambda: preset_text("nanosat").encode(), at(".toml", read_testbed)),
     Target("plan", PLAN.encode, at(".toml", plan)),
     Target("column map", MAP.encode, at(".toml", read_column_map)),
+    Target("column map on a table", lambda: b"any map", mapped_table),
     Target("session", SESSION.encode, at(".toml", session)),
     *(
         Target(name, made, at(".bin", captured(driver)))

@@ -26,12 +26,11 @@ def labelled(lines: list[str], first: int) -> Labelled | None:
     A line that is none, or lacks a name, becomes a row with cells too few.
     """
     some = [line for line in lines if line.strip()][:first]
-    found = Counter(tuple(each) for each in map(pairs_of, some) if each)
-    if not found:
+    found = [tuple(each) for each in map(pairs_of, some) if each]
+    usual, often = next(iter(Counter(map(frozenset, found)).most_common(1)), (frozenset(), 0))
+    if len(usual) < 2 or 2 * often <= len(some):
         return None
-    names, often = found.most_common(1)[0]
-    if len(names) < 2 or 2 * often <= len(some):
-        return None
+    names = next(each for each in found if usual == {*each})
     numbered = [(k, line) for k, line in enumerate(lines, 1) if line.strip()]
     rows = [_row(line, names) for _, line in numbered]
     places = [k for k, _ in numbered]
