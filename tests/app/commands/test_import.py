@@ -8,6 +8,8 @@ from equipoise.maths.attitude import conjugate
 from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
 from tests.oracle.corpus import corpus_record
+from tests.support.recordings.clock_guises import ticks_of_dot_net
+from tests.support.recordings.frame_guises import accelerations, tilted
 from tests.support.recordings.recorded_motion import turning
 from tests.support.recordings.written_tables import columns, saved, text
 
@@ -162,3 +164,27 @@ def test_a_gyro_that_does_not_rest_at_zero_is_named(equipoise, tmp_path):
     saved(tmp_path, text(columns(moved, w=moved.w + np.radians([2.0, 0.0, 0.0]))))
     printed = " ".join(equipoise("import", "run.csv").out.split())
     assert "gyro's zero: at rest it reports 2.0" in printed
+
+
+def test_a_vertical_that_nothing_shows_is_said_to_be_unchecked(equipoise, tmp_path):
+    """Without an accelerometer a testbed's stop shows it roughly, and nothing else at all."""
+    moved = turning()
+    saved(tmp_path, text(columns(moved, q=tilted(moved, 45.0))))
+    alone = equipoise("import", "run.csv")
+    assert alone.code == 0
+    assert "not checked: whether the laboratory's axis" in " ".join(alone.out.split())
+    saved(tmp_path, text(columns(moved)))
+    checked = equipoise("import", "run.csv", "--testbed", "nanosat")
+    assert "not checked: whether the laboratory is tilted by less than 40 deg" in " ".join(
+        checked.out.split()
+    )
+    saved(tmp_path, text(columns(moved) | accelerations(moved)))
+    assert "not checked" not in equipoise("import", "run.csv", "--testbed", "nanosat").out
+
+
+def test_a_map_of_ticks_reads_the_table_again(equipoise, tmp_path):
+    moved = turning()
+    path = ticks_of_dot_net.write(moved, tmp_path)
+    assert equipoise("import", path, "--write-map", "map.toml").code == 0
+    assert 'unit = "100 ns"' in (tmp_path / "map.toml").read_text()
+    assert equipoise("inspect", path, "--columns", "map.toml").code == 0

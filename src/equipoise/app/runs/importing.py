@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import degrees
 from pathlib import Path
 from typing import Any
 
@@ -130,6 +131,23 @@ def by_motion(found: Imported, testbed: Testbed, bad_rows: float) -> TableReadin
     recording = fitted(recording_from(found.table, columns, bad_rows), testbed)
     direction = direction_of(recording, testbed)
     return alike[int(direction.is_reversed)] if direction.is_sure else None
+
+
+def check_vertical(reading: TableReading, source: str) -> None:
+    """Raise InputError where an accelerometer shows that no axis of the laboratory points up."""
+    vertical = reading.vertical
+    if vertical is None or not vertical.is_off:
+        return
+    named = ", ".join(f"'{name}'" for name in vertical.columns)
+    found = (
+        f"a vertical that is {degrees(vertical.tilt):.0f} deg from {reading.frame.lab_up} of the "
+        f"laboratory, by the accelerometer {named}"
+    )
+    wanted = (
+        "attitudes in a laboratory of which one axis points up: level its axes (the ground plane "
+        "of a motion capture) and record anew"
+    )
+    raise InputError(source, found, wanted)
 
 
 def _with_one_clock(table: Table, columns: ColumnMap) -> tuple[Table, ColumnMap]:

@@ -1,13 +1,17 @@
 """The readings of an unknown table in words: what was found, by what, and what else it may be."""
 
 from dataclasses import dataclass
-from math import degrees, inf, sqrt
+from math import degrees, inf, pi, sqrt
 
 from equipoise.app.text.blocks import Block, Blocks, Claim, Heading, items, sentences
 from equipoise.app.text.json_lists import IMPORT
 from equipoise.app.text.json_shape import View
 from equipoise.assessment.hypotheses.gyro_zero import GyroZero
 from equipoise.assessment.hypotheses.ranking import Ranked, TableReading
+from equipoise.assessment.hypotheses.verticals import Vertical
+from equipoise.io.recording.frame_check import LEANS
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
 
 NAMED = 8  # columns left aside that are named (chosen: two lines of a terminal)
 
@@ -154,8 +158,36 @@ def evidence_lines(reading: TableReading) -> list[str]:
         )
     if reading.zero is not None and reading.zero.is_clear:
         lines.append(_zero_line(reading.zero))
+    if reading.vertical is not None and not reading.vertical.is_off:
+        lines.append(_vertical_line(reading, reading.vertical))
     tilt = degrees(reading.frame.tilt)
     return [*lines, f"gravity: the upright axis is {tilt:.2g} deg from the vertical (median)."]
+
+
+def _vertical_line(reading: TableReading, vertical: Vertical) -> str:
+    named = ", ".join(f"'{name}'" for name in vertical.columns)
+    return (
+        f"vertical: by the accelerometer {named} it is {degrees(vertical.tilt):.2g} deg from "
+        f"{reading.frame.lab_up} of the laboratory (scatter {degrees(vertical.scatter):.2g} deg)."
+    )
+
+
+def unchecked(
+    taken: TableReading | None, recording: Recording, testbed: Testbed | None
+) -> tuple[str, ...]:
+    """Say how much the laboratory may be tilted without anyone noticing."""
+    if recording.attitude is None or (taken is not None and taken.vertical is not None):
+        return ()
+    if testbed is None or testbed.tilt_limit >= pi:
+        return (
+            "not checked: whether the laboratory's axis that is taken as up is vertical. An "
+            "accelerometer in the table shows it; --testbed shows it roughly, by the stop.",
+        )
+    stop = degrees(max(testbed.tilt_limit, LEANS))
+    return (
+        f"not checked: whether the laboratory is tilted by less than {stop:.0f} deg: only the "
+        "stop of the platform shows it here; an accelerometer in the table shows more.",
+    )
 
 
 def _zero_line(zero: GyroZero) -> str:
