@@ -69,10 +69,11 @@ def mapped_table(seed: bytes) -> None:
 
 
 def _check(read: Recording) -> None:
-    """Times rise, and are finite."""
+    """Times rise, and numbers are finite."""
     for channel in filter(None, (getattr(read, name) for name in CHANNELS)):
         assert np.all(np.diff(channel.t) > 0)
         assert np.isfinite(channel.t).all()
+        assert np.isfinite(channel.values).all()
 
 
 def _toml(value: Any) -> str:

@@ -46,7 +46,10 @@ def test_a_sensor_with_other_axes_says_nothing() -> None:
     [
         (("az", "t", "ax", "ay"), ("ax", "ay", "az")),
         (("accX", "accY", "accZ"), ("accX", "accY", "accZ")),
-        (("accel_x [g]", "accel_y [g]", "accel_z [g]"), ("accel_x [g]", "accel_y [g]", "accel_z [g]")),
+        (
+            ("accel_x [g]", "accel_y [g]", "accel_z [g]"),
+            ("accel_x [g]", "accel_y [g]", "accel_z [g]"),
+        ),
         (("linear_acceleration.x", "linear_acceleration.y"), ()),
         (("ax", "ay", "az", "acc2_x"), ()),
         (("gx", "gy", "gz"), ()),

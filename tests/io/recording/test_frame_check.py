@@ -1,5 +1,6 @@
 """A platform that seems to lie: what the rows show is said, and what mends it does."""
 
+import re
 import tomllib
 from dataclasses import replace
 
@@ -123,7 +124,9 @@ def askew(angle_deg: float, lean_deg: float = 5.0):
 @pytest.mark.parametrize("angle", [35, 45, 55])
 def test_a_laboratory_askew_beyond_the_stop_is_refused(angle) -> None:
     text = refused(askew(angle))
-    assert f"a direction that is {angle} deg from the laboratory's vertical" in text
+    found = re.search(r"a direction that is (\d+) deg from the laboratory's vertical", text)
+    assert found is not None
+    assert abs(int(found[1]) - angle) <= 2
     assert "beyond the platform's stop at 30 deg" in text
     assert "level its axes" in text
 

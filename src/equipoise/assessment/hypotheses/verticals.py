@@ -7,6 +7,7 @@ way in the laboratory, whatever the platform does. Its axes are taken to be thos
 """
 
 from dataclasses import dataclass
+from math import radians
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from equipoise.model.arrays import Series3, Series4, Vector3
 
 EVEN = 0.1  # of a length, by which lengths may scatter: more is no gravity (chosen)
 TOGETHER = 0.9  # length of the mean direction, below which the axes are other ones (chosen)
-TILTED = np.radians(15.0)  # chosen: axes of a camera and a sensor are aligned by eye at least
+TILTED = radians(15.0)  # chosen: axes of a camera and a sensor are aligned by eye at least
 TIMES = 3.0  # the scatter, from which a tilt is beyond doubt (chosen)
 
 

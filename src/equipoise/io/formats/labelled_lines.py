@@ -34,7 +34,9 @@ def labelled(lines: list[str], first: int) -> Labelled | None:
     numbered = [(k, line) for k, line in enumerate(lines, 1) if line.strip()]
     rows = [_row(line, names) for _, line in numbered]
     places = [k for k, _ in numbered]
-    return Labelled([list(names), *rows], [places[0], *places])
+    head = next(k for k, row in enumerate(rows) if len(row) == len(names))
+    rows.insert(head, list(names))
+    return Labelled(rows, [*places[:head], *places[head:][:1], *places[head:]])
 
 
 def pairs_of(line: str) -> dict[str, str]:

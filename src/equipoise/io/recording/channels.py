@@ -114,7 +114,25 @@ def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, li
     ]
     found += _marked_rows(source, columns, numbers, sentinel)
     si = (values[full] - np.array(columns.offset)) * np.array(columns.factor)
-    return Channel(name, source.time[rows][full], si, rows[full]), found
+    whole = Channel(name, source.time[rows][full], si, rows[full])
+    return _without_overflow(whole, table, columns, found)
+
+
+def _without_overflow(
+    channel: Channel, table: Table, columns: Columns, found: list[FaultyRows]
+) -> tuple[Channel, list[FaultyRows]]:
+    """Return a channel without the rows that are beyond any number in SI, and all its faults."""
+    over = ~np.isfinite(channel.values)
+    mask: Bools = over.any(axis=1)
+    if not mask.any():
+        return channel, found
+    row = int(np.argmax(mask))
+    column, place = columns.names[int(np.argmax(over[row]))], int(channel.rows[row])
+    where = f"{table.source}, {table.place(place)}, column '{column}'"
+    said = f"{table.numbers(column).values[place]:.9g}, which is beyond any number in SI"
+    wanted = "a reading, with the unit, factor and offset that it has"
+    fault = FaultyRows(RowFault.BEYOND, channel.rows[mask], where, said, wanted)
+    return channel.keep(~mask), [*found, fault]
 
 
 def in_body_axes(channel: Channel, columns: Columns, body: tuple[str, str, str]) -> Channel:
