@@ -167,7 +167,7 @@ def tilted(motion: Motion, angle_deg: float) -> Series4:
     return product(_quaternion(Rotation.from_rotvec(lean).as_matrix()), motion.q)
 
 
-@answered(Refused("45 deg from the laboratory's vertical", "level its axes", by=("import",)))
+@answered(Refused("4[4-6] deg from the laboratory's vertical", "level its axes", by=("import",)))
 def laboratory_askew(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(columns(motion, q=tilted(motion, 45.0))))
 

@@ -69,6 +69,7 @@ def _taken_blocks(found: TableRead) -> Blocks:
     blocks: list[Block] = [Claim("The table is read as follows.", "good")]
     blocks += items(reading_lines(taken), "plain")
     blocks += items(evidence_lines(taken), "good")
+    blocks += _gravity_blocks(taken)
     blocks += items([assumed_line(taken)], "quiet")
     if others := [each for each in found.ranked.alike if each is not taken]:
         blocks.append(Heading("As good by the numbers, less usual"))
@@ -160,8 +161,13 @@ def evidence_lines(reading: TableReading) -> list[str]:
         lines.append(_zero_line(reading.zero))
     if reading.vertical is not None and not reading.vertical.is_off:
         lines.append(_vertical_line(reading, reading.vertical))
-    tilt = degrees(reading.frame.tilt)
-    return [*lines, f"gravity: the upright axis is {tilt:.2g} deg from the vertical (median)."]
+    return lines
+
+
+def _gravity_blocks(reading: TableReading) -> Blocks:
+    tilt = reading.frame.tilt
+    line = f"gravity: the upright axis is {degrees(tilt):.2g} deg from the vertical (median)."
+    return items([line], "good" if tilt <= LEANS else "caution")
 
 
 def _vertical_line(reading: TableReading, vertical: Vertical) -> str:
