@@ -26,6 +26,7 @@ from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 from tests.support import flight_logs
 from tests.support.byte_captures import datagram_packet, pcap, pcapng, telemetry
+from tests.support.column_map_fuzz import mapped_table
 from tests.support.excel_files import RATE_SHEET, archive, workbook
 from tests.support.flight_logs import terminal
 from tests.support.fuzz_target import Target
@@ -33,6 +34,7 @@ from tests.support.mat_files import mat_4, mat_73
 from tests.support.sample_logs import IMU, bag_1, bag_2_file, record, ulog
 from tests.support.sensor_units import CAMERA, unit
 
+SHARE_OF_MAPS = 5.0  # their keys are many, and tables have many shapes
 SHARE_OF_LIBRARIES = 0.02  # rosbags, pyarrow and SQLite take long to begin, and are others' to test
 
 MAP = """
@@ -255,6 +257,7 @@ TARGETS = (
     Target("testbed", lambda: preset_text("nanosat").encode(), at(".toml", read_testbed)),
     Target("plan", PLAN.encode, at(".toml", plan)),
     Target("column map", MAP.encode, at(".toml", read_column_map)),
+    Target("column map on a table", lambda: b"any map", mapped_table, SHARE_OF_MAPS),
     Target("session", SESSION.encode, at(".toml", session)),
     *(
         Target(name, made, at(".bin", captured(driver)))

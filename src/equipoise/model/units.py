@@ -10,6 +10,7 @@ GRAM = 1e-3  # kg
 G0 = 9.80665  # m/s^2, standard gravity
 KG_CM, G_CM = 1e-2, 1e-5  # kg m
 MINUTE, MS, US, NS = 60.0, 1e-3, 1e-6, 1e-9  # s
+TICK = 1e-7  # s, of the clocks of Windows and .NET
 DEG = math.pi / 180  # rad; deg/s in rad/s
 RPM = math.pi / 30  # rad/s
 MN_M, UN_M = 1e-3, 1e-6  # N m; times s: N m s

@@ -8,6 +8,10 @@ from equipoise.maths.attitude import conjugate
 from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
 from tests.oracle.corpus import corpus_record
+from tests.support.recordings.clock_guises import ticks_of_dot_net
+from tests.support.recordings.frame_guises import accelerations, tilted
+from tests.support.recordings.recorded_motion import turning
+from tests.support.recordings.written_tables import columns, saved, text
 
 SEED = 27  # with camera and gyro; MuJoCo's
 
@@ -109,3 +113,78 @@ def test_a_header_that_says_it_all_claims_nothing_of_the_motion(equipoise, tmp_p
     assert done.code == 0
     assert "says itself what it holds" in done.out
     assert "motion" not in done.out
+
+
+def test_the_document_says_what_the_terminal_says(equipoise, strict_json, tmp_path, recording):
+    """What is read, what else it may be, and every sentence."""
+    table(tmp_path / "raw.csv", recording)
+    words = ["import", tmp_path / "raw.csv", "--out", tmp_path / "run.csv", "--json"]
+    done = equipoise(*words)
+    assert done.code == 0
+    document = strict_json(done.out)
+    assert document["outcome"] == "by numbers"
+    assert document["taken"]["clock"]["unit"] == "ms"
+    assert document["taken"]["gyro"]["unit"] == "deg/s"
+    assert document["taken"] in document["alike"]
+    printed = " ".join(equipoise("import", tmp_path / "raw.csv").out.split())
+    assert [s for s in document["sentences"] if " ".join(s.split()) not in printed] == []
+    assert "run.csv" in done.err
+
+
+def test_the_document_of_an_open_table_lists_the_readings(
+    equipoise, strict_json, tmp_path, recording
+):
+    table(tmp_path / "raw.csv", recording, names=MEANINGLESS[:5])
+    done = equipoise("import", tmp_path / "raw.csv", "--json")
+    assert done.code == 1
+    document = strict_json(done.out)
+    assert document["outcome"] == "open"
+    assert document["taken"] is None
+    assert len(document["alike"]) == 2
+    assert [reading["gyro"] for reading in document["alike"]] == [None, None]
+
+
+def test_columns_that_are_not_read_are_named_and_counted(equipoise, strict_json, tmp_path):
+    """Many are cut short with a count; the document has them all."""
+    moved = turning()
+    others = {f"extra{k}": np.full(len(moved.t), float(k)) for k in range(11)}
+    saved(tmp_path, text(columns(moved) | others))
+    printed = " ".join(equipoise("import", "run.csv").out.split())
+    assert "left aside: 11 columns were not read, 'extra0', 'extra1'" in printed
+    assert "'extra7' and 3 more" in printed
+    document = strict_json(equipoise("import", "run.csv", "--json").out)
+    assert document["left_aside"] == list(others)
+
+
+def test_a_gyro_that_does_not_rest_at_zero_is_named(equipoise, tmp_path):
+    """2 deg/s about x are beyond doubt; the motion's own zero is too small to be stated."""
+    moved = turning()
+    saved(tmp_path, text(columns(moved)))
+    assert "gyro's zero" not in equipoise("import", "run.csv").out
+    saved(tmp_path, text(columns(moved, w=moved.w + np.radians([2.0, 0.0, 0.0]))))
+    printed = " ".join(equipoise("import", "run.csv").out.split())
+    assert "gyro's zero: at rest it reports 2.0" in printed
+
+
+def test_a_vertical_that_nothing_shows_is_said_to_be_unchecked(equipoise, tmp_path):
+    """Without an accelerometer a testbed's stop shows it roughly, and nothing else at all."""
+    moved = turning()
+    saved(tmp_path, text(columns(moved, q=tilted(moved, 45.0))))
+    alone = equipoise("import", "run.csv")
+    assert alone.code == 0
+    assert "not checked: whether the laboratory's axis" in " ".join(alone.out.split())
+    saved(tmp_path, text(columns(moved)))
+    checked = equipoise("import", "run.csv", "--testbed", "nanosat")
+    assert "not checked: whether the laboratory is tilted by less than 40 deg" in " ".join(
+        checked.out.split()
+    )
+    saved(tmp_path, text(columns(moved) | accelerations(moved)))
+    assert "not checked" not in equipoise("import", "run.csv", "--testbed", "nanosat").out
+
+
+def test_a_map_of_ticks_reads_the_table_again(equipoise, tmp_path):
+    moved = turning()
+    path = ticks_of_dot_net.write(moved, tmp_path)
+    assert equipoise("import", path, "--write-map", "map.toml").code == 0
+    assert 'unit = "100 ns"' in (tmp_path / "map.toml").read_text()
+    assert equipoise("inspect", path, "--columns", "map.toml").code == 0

@@ -1,5 +1,6 @@
 """A platform that seems to lie: what the rows show is said, and what mends it does."""
 
+import re
 import tomllib
 from dataclasses import replace
 
@@ -113,3 +114,28 @@ def test_attitudes_without_any_steady_axis_name_no_cause() -> None:
     text = refused(q / np.linalg.norm(q, axis=1, keepdims=True))
     assert "nor near another axis of the laboratory" in text
     assert not any(word in text for word in ("lab_up", "platform.up", "fall"))
+
+
+def askew(angle_deg: float, lean_deg: float = 5.0):
+    """Return attitudes of a platform that leans in a laboratory that was set up askew."""
+    return multiply(exponential(np.radians([0.0, angle_deg, 0.0])), leaning(lean_deg))
+
+
+@pytest.mark.parametrize("angle", [35, 45, 55])
+def test_a_laboratory_askew_beyond_the_stop_is_refused(angle) -> None:
+    text = refused(askew(angle))
+    found = re.search(r"a direction that is (\d+) deg from the laboratory's vertical", text)
+    assert found is not None
+    assert abs(int(found[1]) - angle) <= 2
+    assert "beyond the platform's stop at 30 deg" in text
+    assert "level its axes" in text
+
+
+@pytest.mark.parametrize(("angle", "lean"), [(25, 5), (35, 20)])
+def test_what_the_stop_or_the_swing_may_explain_passes(angle, lean) -> None:
+    """Within the stop; or a swing too wide for its middle to be known."""
+    check_frame(recorded(askew(angle, lean)), BED)
+
+
+def test_a_platform_without_a_stop_may_stand_at_any_tilt() -> None:
+    check_frame(recorded(askew(45)), replace(BED, tilt_limit=np.pi))

@@ -20,6 +20,7 @@ from tests.support.recordings.written_tables import (
 
 START = 1_714_745_500  # s since 1970: 2024-05-03
 DOUBLE = 5e-7  # s: what is left of a date's digits in a double
+TICKED = 2e-5  # s: of the year 2024 in seconds since the year 1
 COARSE = 6e-3  # s: stamps to the hundredth
 TWICE = tuple(range(99, 2400, 50))
 
@@ -166,8 +167,18 @@ def seconds_and_nanoseconds(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(stamp | rest))
 
 
-@answered(Refused("Ticks.*a row each 0.25 s", "choose one, --choose", by=("import",)))
-def ticks_of_100_ns(motion: Motion, folder: Path) -> Path:
-    """A date of .NET: none of the units of a clock."""
-    ticks = (621_355_968_000_000_000 + START * 10**7) + np.round(1e7 * motion.t).astype(np.int64)
-    return stamped(motion, folder, "Ticks", [str(k) for k in ticks.tolist()])
+def ticks_since(year: int, motion: Motion) -> list[str]:
+    """Return dates as whole counts of 100 ns since the first of January of a year."""
+    before = (datetime(1970, 1, 1, tzinfo=UTC) - datetime(year, 1, 1, tzinfo=UTC)).days * 86_400
+    ticks = (before + START) * 10**7 + np.round(1e7 * motion.t).astype(np.int64)
+    return [str(k) for k in ticks.tolist()]
+
+
+@answered(Reads(time=TICKED, said="'Ticks' in 100 ns"))
+def ticks_of_dot_net(motion: Motion, folder: Path) -> Path:
+    return stamped(motion, folder, "Ticks", ticks_since(1, motion))
+
+
+@answered(Reads(time=TICKED, said="'c0' in 100 ns"))
+def file_time_of_windows(motion: Motion, folder: Path) -> Path:
+    return stamped(motion, folder, "c0", ticks_since(1601, motion))

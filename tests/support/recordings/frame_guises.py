@@ -159,3 +159,34 @@ def signs_of_quaternions_at_random(motion: Motion, folder: Path) -> Path:
 def camera_alone(motion: Motion, folder: Path) -> Path:
     table = columns(motion, q=conjugate(motion.q))
     return saved(folder, text({name: table[name] for name in ("ms", "qw", "qx", "qy", "qz")}))
+
+
+def tilted(motion: Motion, angle_deg: float) -> Series4:
+    """Return attitudes in a laboratory that was set up askew."""
+    lean = np.radians([0.6 * angle_deg, 0.8 * angle_deg, 0.0])
+    return product(_quaternion(Rotation.from_rotvec(lean).as_matrix()), motion.q)
+
+
+@answered(Refused("4[4-6] deg from the laboratory's vertical", "level its axes", by=("import",)))
+def laboratory_askew(motion: Motion, folder: Path) -> Path:
+    return saved(folder, text(columns(motion, q=tilted(motion, 45.0))))
+
+
+@answered(Refused("a vertical that is 24 deg from z", "level its axes", by=("import",)))
+def laboratory_askew_beside_an_accelerometer(motion: Motion, folder: Path) -> Path:
+    """By less than the platform's stop."""
+    table = columns(motion, q=tilted(motion, 24.0))
+    return saved(folder, text(table | accelerations(motion)))
+
+
+@answered(Reads(said="vertical: by the accelerometer 'ax', 'ay', 'az' it is"))
+def accelerometer_beside_the_gyro(motion: Motion, folder: Path) -> Path:
+    return saved(folder, text(columns(motion) | accelerations(motion)))
+
+
+def accelerations(motion: Motion) -> dict[str, Floats]:
+    """Return what an accelerometer feels of gravity alone, in g."""
+    turn = Rotation.from_quat(motion.q[:, [1, 2, 3, 0]])
+    stand = turn.inv().apply([0.0, 0.0, 1.0])
+    noise = np.random.default_rng(9).normal(0.0, 2e-3, stand.shape)
+    return named(("ax", "ay", "az"), stand + noise)

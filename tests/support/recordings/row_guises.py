@@ -114,3 +114,33 @@ def one_of_two_columns_of_the_time_blank(motion: Motion, folder: Path) -> Path:
     stamp = {"/imu/header/stamp/sec": ms // 1000, "/imu/header/stamp/nanosec": ns}
     rest = {name: column for name, column in ours(motion, ROS).items() if name != "__time"}
     return saved(folder, text(stamp | rest))
+
+
+def marked(motion: Motion, which: tuple[int, ...], sensors: str, mark: float) -> Motion:
+    """Return a motion in which a number stands for no reading: of attitude, of gyro's y."""
+    q, w = motion.q.copy(), motion.w.copy()
+    if "q" in sensors:
+        q[list(which)] = mark
+    if "w" in sensors:
+        w[list(which), 1] = mark
+    return Motion(motion.t, q, w, motion.truth)
+
+
+@answered(Reads(lost=SOME, rate_lost=(), said="23 rows with a number that stands for no reading"))
+def a_camera_that_writes_minus_999(motion: Motion, folder: Path) -> Path:
+    return saved(folder, text(columns(marked(motion, SOME, "q", -999.0))))
+
+
+@answered(Reads(rate_lost=SOME, said="23 rows with a number that stands for no reading"))
+def a_gyro_that_writes_minus_9999(motion: Motion, folder: Path) -> Path:
+    return saved(folder, text(columns(marked(motion, SOME, "w", -9999.0))))
+
+
+@answered(Reads("inspect", rate_lost=SOME, said="23 rows with a number that stands for no reading"))
+def a_gyro_that_writes_1e30(motion: Motion, folder: Path) -> Path:
+    return saved(folder, text(ours(marked(motion, SOME, "w", 1e30), ROS)))
+
+
+@answered(Refused(r"-999, which stands for no reading \(149 of 2401", r"--bad-rows 0\.07"))
+def six_percent_of_minus_999(motion: Motion, folder: Path) -> Path:
+    return saved(folder, text(ours(marked(motion, MANY, "qw", -999.0), ROS)))

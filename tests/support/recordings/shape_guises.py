@@ -131,15 +131,51 @@ def numbers_with_exponents_and_signs(motion: Motion, folder: Path) -> Path:
     return saved(folder, "\n".join([" ".join(table), *body]), "run.txt")
 
 
-@answered(Refused("qw:0.7332176|no column of numbers", "import .*--write-map|a table of a clock"))
-def names_before_each_number(motion: Motion, folder: Path) -> Path:
-    """As a serial plotter takes it."""
+def of_fortran(motion: Motion, letter: str, separator: str) -> str:
+    """Return a table whose numbers have the exponents of double precision."""
+    head, *rows = lines(columns(motion))
+    cells = [[f"{float(c):.12e}".replace("e", letter) for c in row.split(",")] for row in rows]
+    return "\n".join(map(separator.join, [head.split(","), *cells]))
+
+
+@answered(Reads())
+def exponents_of_fortran(motion: Motion, folder: Path) -> Path:
+    return saved(folder, of_fortran(motion, "D", "  "), "run.dat")
+
+
+@answered(Reads())
+def small_exponents_of_fortran(motion: Motion, folder: Path) -> Path:
+    return saved(folder, of_fortran(motion, "d", ","))
+
+
+def with_names(motion: Motion, sign: str, between: str) -> list[str]:
+    """Return rows that say before each number what it is."""
     head, *rows = lines(columns(motion))
     names = head.split(",")
-    body = [
-        " ".join(f"{n}:{c}" for n, c in zip(names, row.split(","), strict=True)) for row in rows
+    return [
+        between.join(f"{n}{sign}{c}" for n, c in zip(names, row.split(","), strict=True))
+        for row in rows
     ]
-    return saved(folder, "\n".join(body), "run.txt")
+
+
+@answered(Reads(said="Each number has its name before it"))
+def names_before_each_number(motion: Motion, folder: Path) -> Path:
+    """As a serial plotter takes it."""
+    return saved(folder, "\n".join(with_names(motion, ":", " ")), "run.txt")
+
+
+@answered(Reads(lost=(1200,), said="1 row with fewer cells than the header, line 1201"))
+def names_with_equals_signs(motion: Motion, folder: Path) -> Path:
+    """With a word of the program between."""
+    rows = with_names(motion, "=", ", ")
+    rows[1200] = "low battery"
+    return saved(folder, "\n".join(rows))
+
+
+@answered(Reads(said="A terminal's clock stands before each line"))
+def names_with_a_space_behind_a_terminals_clock(motion: Motion, folder: Path) -> Path:
+    rows = with_names(motion, ": ", "\t")
+    return saved(folder, "\n".join(f"14:03:21.000 -> {row}" for row in rows), "run.txt")
 
 
 @answered(Refused("two columns 'time_s'", "wanted one"))

@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import WHOLE, Reading, Whole
+from equipoise.app.arguments.options import WHOLE, Json, Reading, Whole
 from equipoise.app.console.terminal import announced, busy, show_paths
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
     from equipoise.app.runs.importing import Imported
+    from equipoise.app.views.import_views import TableRead
     from equipoise.assessment.hypotheses.ranking import TableReading
     from equipoise.model.recording import Recording
     from equipoise.model.testbed import Testbed
@@ -26,6 +27,7 @@ def import_(
     write_map: Path | None = None,
     out: Path | None = None,
     reading: Reading = WHOLE,
+    json: Json = False,
 ) -> int:
     """Find out how a table of unknown columns is to be read, and read it.
 
@@ -59,24 +61,30 @@ def import_(
     options = read_options(reading, "--")
     with busy("comparing readings", announce=False):
         found = imported(file, options)
-    return _read(found, choose, bed, Written(out, write_map, options.bad_rows))
+    return _read(found, choose, bed, Wanted(out, write_map, options.bad_rows, json))
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
-    """What is written of a reading."""
+class Wanted:
+    """What is written of a reading, and how it is printed."""
 
     out: Path | None
     column_map: Path | None
     bad_rows: float
+    json: bool
+
+    def show(self, found: "TableRead") -> None:
+        """Print what was found."""
+        from equipoise.app.logbook.output import print_result
+        from equipoise.app.views.import_views import import_blocks, import_json
+
+        print_result(import_json(found), import_blocks(found), self.json)
 
 
-def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written: Written) -> int:
+def _read(found: "Imported", choose: int | None, bed: "Testbed | None", wanted: Wanted) -> int:
     """Show the readings, and read the table by the one that is taken."""
-    from equipoise.app.console.rich_blocks import show
-    from equipoise.app.runs.importing import axis_up, by_motion, map_to_start_from
-    from equipoise.app.views.import_views import import_blocks
-    from equipoise.io.files.atomic_file import write_whole
+    from equipoise.app.runs.importing import axis_up, by_motion, check_vertical
+    from equipoise.app.views.import_views import TableRead, unchecked
     from equipoise.io.recording.frame_check import check_frame
     from equipoise.io.recording.recording_file import recording_from
 
@@ -84,43 +92,55 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written:
     by_fit: tuple[str, ...] = ()
     if chosen is None and bed is not None:
         with busy("comparing motions", announce=False):
-            chosen = by_motion(found, bed, written.bad_rows)
+            chosen = by_motion(found, bed, wanted.bad_rows)
         by_fit = (BY_FIT,) if chosen is not None else ()
     header = found.known is not None and not found.ranked.alike
     if chosen is None and not header:
-        show(import_blocks(found.ranked, None, ()))
-        if written.column_map is not None and not found.ranked.alike:
-            write_whole(written.column_map, map_to_start_from(found.table.names))
-            show_paths([written.column_map])
-        return 1
+        return _left_open(found, wanted)
     columns = found.known if chosen is None else found.columns(chosen, axis_up(bed))
     assert columns is not None  # one of the two is there
-    recording = recording_from(found.table, columns, written.bad_rows)
-    notes = (*by_fit, *recording.notes, *recording.gaps)
-    show(import_blocks(found.ranked, chosen, notes, header))
+    recording = recording_from(found.table, columns, wanted.bad_rows)
+    notes = (*by_fit, *recording.notes, *recording.gaps, *unchecked(chosen, recording, bed))
+    left = found.left_aside(columns)
+    wanted.show(TableRead(found.source, found.ranked, chosen, header, notes, left))
+    if chosen is not None:
+        check_vertical(chosen, found.source)
     if bed is not None:
         check_frame(recording, bed)
-    _write(found, chosen, recording, written, axis_up(bed))
+    _write(found, chosen, recording, wanted, axis_up(bed))
     return 0
+
+
+def _left_open(found: "Imported", wanted: Wanted) -> int:
+    """Show readings between which a person has to choose, or a map to start from."""
+    from equipoise.app.runs.importing import map_to_start_from
+    from equipoise.app.views.import_views import TableRead
+    from equipoise.io.files.atomic_file import write_whole
+
+    wanted.show(TableRead(found.source, found.ranked, None))
+    if wanted.column_map is not None and not found.ranked.alike:
+        write_whole(wanted.column_map, map_to_start_from(found.table.names))
+        show_paths([wanted.column_map], wanted.json)
+    return 1
 
 
 def _write(
     found: "Imported",
     chosen: "TableReading | None",
     recording: "Recording",
-    written: Written,
+    wanted: Wanted,
     up: str,
 ) -> None:
     from equipoise.io.files.atomic_file import write_whole
     from equipoise.io.recording.recording_file import write_recording
     from equipoise.io.toml.write_toml import toml_text
 
-    if written.column_map is not None and chosen is not None:
-        write_whole(written.column_map, toml_text(found.map_keys(chosen, up)))
-    elif written.column_map is not None:
+    if wanted.column_map is not None and chosen is not None:
+        write_whole(wanted.column_map, toml_text(found.map_keys(chosen, up)))
+    elif wanted.column_map is not None:
         found_as = "a file that says itself what it holds"
         raise InputError("--write-map", found_as, "no map: none is needed")
-    if written.out is not None:
-        write_recording(recording, written.out)
-    if paths := [path for path in (written.column_map, written.out) if path is not None]:
-        show_paths(paths)
+    if wanted.out is not None:
+        write_recording(recording, wanted.out)
+    if paths := [path for path in (wanted.column_map, wanted.out) if path is not None]:
+        show_paths(paths, wanted.json)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import degrees
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.column_map_file import MapFile, column_map_of
 from equipoise.io.columns.dialects import detect
 from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.columns.sentinels import sentinel_rows
 from equipoise.io.columns.table import Numbers, Table
 from equipoise.io.columns.text_times import FORMATS, with_times_as_numbers
 from equipoise.io.recording.channels import read_time
@@ -53,6 +55,13 @@ class Imported:
                 raise InputError("--choose", str(number), f"1 to {len(alike)}, or nothing")
             return alike[number - 1]
         return alike[0] if self.ranked.decided else self.by_header
+
+    def left_aside(self, columns: ColumnMap) -> tuple[str, ...]:
+        """Return the columns of the table that a map does not take."""
+        if columns.native:
+            return ()  # whose notes name them
+        parts = {part for name in columns.names for part in name.split(AND)}
+        return tuple(name for name in self.table.names if name and name not in parts)
 
     def map_keys(self, reading: TableReading, up: str) -> dict[str, Any]:
         """Return a reading as a column map file has it; the platform's axis ``up`` stands.
@@ -124,6 +133,23 @@ def by_motion(found: Imported, testbed: Testbed, bad_rows: float) -> TableReadin
     return alike[int(direction.is_reversed)] if direction.is_sure else None
 
 
+def check_vertical(reading: TableReading, source: str) -> None:
+    """Raise InputError where an accelerometer shows that no axis of the laboratory points up."""
+    vertical = reading.vertical
+    if vertical is None or not vertical.is_off:
+        return
+    named = ", ".join(f"'{name}'" for name in vertical.columns)
+    found = (
+        f"a vertical that is {degrees(vertical.tilt):.0f} deg from {reading.frame.lab_up} of the "
+        f"laboratory, by the accelerometer {named}"
+    )
+    wanted = (
+        "attitudes in a laboratory of which one axis points up: level its axes (the ground plane "
+        "of a motion capture) and record anew"
+    )
+    raise InputError(source, found, wanted)
+
+
 def _with_one_clock(table: Table, columns: ColumnMap) -> tuple[Table, ColumnMap]:
     """Return a table whose time, the sum of several columns, is one column more, in s."""
     time = Numbers(read_time(table, columns))
@@ -177,11 +203,18 @@ def _numbers(table: Table) -> tuple[NumberTable, dict[str, str]]:
             continue
         numbers = table.numbers(name)
         if len(numbers.garbage) <= (1 - MOSTLY) * len(table):
-            found[name] = numbers.values
+            found[name] = _readings(numbers.values)
         elif (written := _time_format(table, name)) is not None:
             formats[name], found[name] = written
     values = np.stack(list(found.values()), axis=1) if found else np.zeros((len(table), 0))
     return NumberTable(tuple(found), values, _units(table, tuple(found))), formats
+
+
+def _readings(values: Series1) -> Series1:
+    """Return a column without the numbers that stand for no reading."""
+    known = values.copy()
+    known[sentinel_rows(values)] = np.nan
+    return known
 
 
 def _units(table: Table, names: tuple[str, ...]) -> tuple[str, ...]:

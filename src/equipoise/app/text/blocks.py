@@ -3,7 +3,7 @@
 Numbers come as texts, formatted once; a renderer adds none and rounds none.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal, TypeVar
 
@@ -185,6 +185,15 @@ def items(texts: Iterable[str], tone: Tone = "plain") -> Blocks:
     """Return sentences of one tone as a list; nothing where there are none."""
     found = tuple(Item(text, tone) for text in texts)
     return (Items(found),) if found else ()
+
+
+def sentences(blocks: Iterable[Block]) -> Iterator[str]:
+    """Yield the texts of claims, headings and items, in their order."""
+    for block in blocks:
+        if isinstance(block, Claim | Heading):
+            yield block.text
+        elif isinstance(block, Items):
+            yield from (item.text for item in block.items)
 
 
 def paragraphs(*texts: str) -> Blocks:

@@ -159,6 +159,42 @@ MASS_PROPERTIES = document(
     Key("possible", FLAG, is_possible),
 )
 
+# Columns of a quaternion are w, x, y, z, those of angles about x, y, z.
+TABLE_ATTITUDE = shape(
+    Key("columns", TEXTS, lambda a: a.columns if a.sequence else a.ordered),
+    Key("turns", TEXT, lambda a: ("body to laboratory", "laboratory to body")[a.inverse]),
+    *fields("sequence", TEXT),
+    Key("unit", TEXT, lambda a: ("deg" if a.degrees else "rad") if a.sequence else "1"),
+    *fields("signs", many(COUNT)),
+)
+
+# Columns are those of x, y, z of the attitude's body; misfit is the share of turning that is left.
+TABLE_GYRO = shape(
+    *fields("columns", TEXTS, "gyro"),
+    *fields("signs", many(COUNT), "gyro"),
+    *fields("unit", TEXT, "gyro"),
+    *fields("factor_rad_s=factor misfit", NUMBER, "gyro"),
+    *fields("spans", COUNT, "gyro"),
+    *fields("zero_rad_s=zero.rate zero_sd_rad_s=zero.sd", maybe(VECTOR)),
+)
+
+# What the columns of an unknown table are in one reading.
+TABLE_READING = shape(
+    *fields("clock", shape(*fields("column unit", TEXT), *fields("step_s=step", NUMBER))),
+    *fields("attitude", TABLE_ATTITUDE),
+    Key("gyro", maybe(TABLE_GYRO), lambda reading: reading if reading.gyro else None),
+    *fields("up=frame", shape(*fields("lab_up body_up", TEXT), *fields("tilt_rad=tilt", NUMBER))),
+)
+
+IMPORT = document(
+    "equipoise/import/1",
+    *fields("source outcome", TEXT),
+    *fields("taken", maybe(TABLE_READING)),
+    *fields("alike", many(TABLE_READING)),
+    *fields("next", maybe(TABLE_READING)),
+    *fields("left_aside sentences", TEXTS),
+)
+
 # Rows of one channel; values are in SI, a column for each of ``columns``.
 CHANNEL = shape(
     *fields("columns", TEXTS),

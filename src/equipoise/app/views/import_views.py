@@ -1,40 +1,98 @@
 """The readings of an unknown table in words: what was found, by what, and what else it may be."""
 
-from collections.abc import Sequence
-from math import degrees, inf, sqrt
+from dataclasses import dataclass
+from math import degrees, inf, pi, sqrt
 
-from equipoise.app.text.blocks import Block, Blocks, Claim, Heading, Item, Items, items
+from equipoise.app.text.blocks import Block, Blocks, Claim, Heading, items, sentences
+from equipoise.app.text.json_lists import IMPORT
+from equipoise.app.text.json_shape import View
+from equipoise.assessment.hypotheses.gyro_zero import GyroZero
 from equipoise.assessment.hypotheses.ranking import Ranked, TableReading
+from equipoise.assessment.hypotheses.verticals import Vertical
+from equipoise.io.recording.frame_check import LEANS
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+NAMED = 8  # columns left aside that are named (chosen: two lines of a terminal)
 
 
-def import_blocks(
-    ranked: Ranked, chosen: TableReading | None, notes: Sequence[str], by_header: bool = False
-) -> Blocks:
-    """Return the reading that is taken with its evidence, and the others.
+@dataclass(frozen=True, slots=True)
+class TableRead:
+    """What `import` found of a table."""
 
-    ``by_header``: the file says itself what it holds, and nothing was compared.
-    """
-    blocks: list[Block] = []
-    if by_header:
-        return (Claim("The file says itself what it holds.", "good"), *items(notes, "quiet"))
-    if chosen is None:
-        blocks.append(Claim(_undecided(ranked), "caution"))
-        for number, reading in enumerate(ranked.alike, 1):
-            blocks += [Heading(f"Reading {number}"), *items(reading_lines(reading), "plain")]
-    else:
-        blocks.append(Claim("The table is read as follows.", "good"))
-        blocks += items(reading_lines(chosen), "plain")
-        blocks += items(evidence_lines(chosen), "good")
-        blocks += items([assumed_line(chosen)], "quiet")
-        if others := [r for r in ranked.alike if r is not chosen]:
-            blocks.append(Heading("As good by the numbers, less usual"))
-            blocks.append(Items(tuple(Item(_differs(r, chosen), "quiet") for r in others)))
-    if ranked.runner_up is not None:
-        first = chosen or ranked.alike[0]
-        other = ranked.runner_up
-        text = f"The next reading{_worse(other, first)}: {_differs(other, first)}"
-        blocks += items([text], "quiet")
-    return (*blocks, *items(notes, "quiet"))
+    source: str
+    ranked: Ranked
+    taken: TableReading | None  # None: the file says itself what it holds, or it is open
+    by_header: bool = False  # the file says itself what it holds, and nothing was compared
+    notes: tuple[str, ...] = ()
+    left_aside: tuple[str, ...] = ()  # columns that the reading does not take
+
+    @property
+    def outcome(self) -> str:
+        """Return how it is read: by its header, by its numbers, or not, as it is open."""
+        by_numbers = "open" if self.taken is None else "by numbers"
+        return "by header" if self.by_header else by_numbers
+
+
+def import_blocks(found: TableRead) -> Blocks:
+    """Return the reading that is taken with its evidence, the others, and what is left aside."""
+    notes = items([*_aside_lines(found.left_aside), *found.notes], "quiet")
+    if found.by_header:
+        return (Claim("The file says itself what it holds.", "good"), *notes)
+    shown = _open_blocks(found.ranked) if found.taken is None else _taken_blocks(found)
+    return (*shown, *_next_blocks(found), *notes)
+
+
+def import_json(found: TableRead) -> View:
+    """Return the same as a document, with every sentence that the terminal shows."""
+    return IMPORT.write({
+        "source": found.source,
+        "outcome": found.outcome,
+        "taken": found.taken,
+        "alike": found.ranked.alike,
+        "next": found.ranked.runner_up,
+        "left_aside": found.left_aside,
+        "sentences": list(sentences(import_blocks(found))),
+    })  # fmt: skip
+
+
+def _open_blocks(ranked: Ranked) -> Blocks:
+    blocks: list[Block] = [Claim(_undecided(ranked), "caution")]
+    for number, reading in enumerate(ranked.alike, 1):
+        blocks += [Heading(f"Reading {number}"), *items(reading_lines(reading), "plain")]
+    return tuple(blocks)
+
+
+def _taken_blocks(found: TableRead) -> Blocks:
+    taken = found.taken
+    assert taken is not None  # the caller has seen it
+    blocks: list[Block] = [Claim("The table is read as follows.", "good")]
+    blocks += items(reading_lines(taken), "plain")
+    blocks += items(evidence_lines(taken), "good")
+    blocks += _gravity_blocks(taken)
+    blocks += items([assumed_line(taken)], "quiet")
+    if others := [each for each in found.ranked.alike if each is not taken]:
+        blocks.append(Heading("As good by the numbers, less usual"))
+        blocks += items((_differs(each, taken) for each in others), "quiet")
+    return tuple(blocks)
+
+
+def _next_blocks(found: TableRead) -> Blocks:
+    other = found.ranked.runner_up
+    if other is None:
+        return ()
+    first = found.taken or found.ranked.alike[0]
+    return items([f"The next reading{_worse(other, first)}: {_differs(other, first)}"], "quiet")
+
+
+def _aside_lines(columns: tuple[str, ...]) -> list[str]:
+    """Return which columns are not read, some of many by name."""
+    if not columns:
+        return []
+    named = ", ".join(f"'{name}'" for name in columns[:NAMED])
+    more = f" and {len(columns) - NAMED} more" if len(columns) > NAMED else ""
+    count = "1 column was" if len(columns) == 1 else f"{len(columns)} columns were"
+    return [f"left aside: {count} not read, {named}{more}."]
 
 
 def _undecided(ranked: Ranked) -> str:
@@ -99,8 +157,52 @@ def evidence_lines(reading: TableReading) -> list[str]:
             f"gyro: {share:.1%} of its variation and the attitude's over {reading.gyro.spans} "
             "spans is the same turning."
         )
-    tilt = degrees(reading.frame.tilt)
-    return [*lines, f"gravity: the upright axis is {tilt:.2g} deg from the vertical (median)."]
+    if reading.zero is not None and reading.zero.is_clear:
+        lines.append(_zero_line(reading.zero))
+    if reading.vertical is not None and not reading.vertical.is_off:
+        lines.append(_vertical_line(reading, reading.vertical))
+    return lines
+
+
+def _gravity_blocks(reading: TableReading) -> Blocks:
+    tilt = reading.frame.tilt
+    line = f"gravity: the upright axis is {degrees(tilt):.2g} deg from the vertical (median)."
+    return items([line], "good" if tilt <= LEANS else "caution")
+
+
+def _vertical_line(reading: TableReading, vertical: Vertical) -> str:
+    named = ", ".join(f"'{name}'" for name in vertical.columns)
+    return (
+        f"vertical: by the accelerometer {named} it is {degrees(vertical.tilt):.2g} deg from "
+        f"{reading.frame.lab_up} of the laboratory (scatter {degrees(vertical.scatter):.2g} deg)."
+    )
+
+
+def unchecked(
+    taken: TableReading | None, recording: Recording, testbed: Testbed | None
+) -> tuple[str, ...]:
+    """Say how much the laboratory may be tilted without anyone noticing."""
+    if recording.attitude is None or (taken is not None and taken.vertical is not None):
+        return ()
+    if testbed is None or testbed.tilt_limit >= pi:
+        return (
+            "not checked: whether the laboratory's axis that is taken as up is vertical. An "
+            "accelerometer in the table shows it; --testbed shows it roughly, by the stop.",
+        )
+    stop = degrees(max(testbed.tilt_limit, LEANS))
+    return (
+        f"not checked: whether the laboratory is tilted by less than {stop:.0f} deg: only the "
+        "stop of the platform shows it here; an accelerometer in the table shows more.",
+    )
+
+
+def _zero_line(zero: GyroZero) -> str:
+    rates = ", ".join(f"{degrees(rate):.3g}" for rate in zero.rate)
+    sd = ", ".join(f"{degrees(sd):.1g}" for sd in zero.sd)
+    return (
+        f"gyro's zero: at rest it reports {rates} deg/s about x, y, z of the attitude (sd {sd}); "
+        "`identify` seeks it."
+    )
 
 
 def assumed_line(reading: TableReading) -> str:

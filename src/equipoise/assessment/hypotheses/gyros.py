@@ -1,6 +1,6 @@
 """Which columns may be a gyro, by what the attitude says of the rate of turn.
 
-    w_a(t) = f s c(t) + b          for axis a of the body rate w: column c, sign s, zero b
+    w_a(t) = f s c(t) - b          for axis a of the body rate w: column c, sign s, zero b
 
 Compared are sums of turns from attitude to attitude with the integral of a column, both without
 what is straight in time: so the noise of attitudes does not grow and a zero does nothing. The

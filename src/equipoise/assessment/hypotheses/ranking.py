@@ -16,8 +16,10 @@ from equipoise.assessment.hypotheses.attitudes import (
 )
 from equipoise.assessment.hypotheses.clocks import ClockGuess, clock_guesses
 from equipoise.assessment.hypotheses.frames import FrameGuess, frame_guesses
+from equipoise.assessment.hypotheses.gyro_zero import GyroZero, zero_of
 from equipoise.assessment.hypotheses.gyros import GyroGuess, gyro_guesses, spans_of, stem
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
+from equipoise.assessment.hypotheses.verticals import Vertical, vertical_of
 from equipoise.model.arrays import Floats, Ints, Series4
 from equipoise.model.growing_times import longest_rising, wraps
 
@@ -46,6 +48,8 @@ class TableReading:
     frames: tuple[FrameGuess, ...]  # the likeliest first
     norm_sd: float = 0.0  # of the quaternions' lengths about one
     in_laboratory: bool = False  # rates about axes of the laboratory explain the same more plainly
+    zero: GyroZero | None = None  # the gyro's
+    vertical: Vertical | None = None  # by an accelerometer, if there is one
 
     @property
     def frame(self) -> FrameGuess:
@@ -121,7 +125,20 @@ def ranked(table: NumberTable) -> Ranked:
     alike = _with_known_units(alike)
     decided = len(alike) == 1 or _is_usual(alike[0], alike[1], best)
     decided = decided and not alike[0].in_laboratory
-    return Ranked(tuple(alike[:SHOWN]), min(others, key=_misfit, default=None), decided)
+    shown = tuple(_with_evidence(table, reading) for reading in alike[:SHOWN])
+    return Ranked(shown, min(others, key=_misfit, default=None), decided)
+
+
+def _with_evidence(table: NumberTable, reading: TableReading) -> TableReading:
+    """Return a reading with the zero of its gyro, and with what an accelerometer says of up."""
+    gyro = reading.gyro
+    rows, t = _timed_rows(table, reading.clock, attitude_of(table, reading.attitude))
+    part = NumberTable(table.names, table.values[rows], table.units)
+    q = attitude_of(part, reading.attitude)
+    spans = None if gyro is None else spans_of(t, q, part, list(gyro.columns))
+    zero = None if gyro is None or spans is None else zero_of(spans, q, gyro)
+    vertical = vertical_of(part, q, gyro, reading.frame.lab_up)
+    return replace(reading, zero=zero, vertical=vertical)
 
 
 def _with_known_units(alike: list[TableReading]) -> list[TableReading]:

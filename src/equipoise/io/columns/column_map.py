@@ -74,3 +74,13 @@ class ColumnMap:
     notes: tuple[str, ...] = ()  # what the dialect left aside
     free_from: float | None = None  # s, when the platform was let go, where the file states it
     layout: Layout = Layout()
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Return every column that the map takes."""
+        angles = None if self.euler is None else self.euler.columns
+        groups = (*self.time, self.quaternion, angles, self.matrix, self.rotation_vector, self.rate,
+                  self.momentum, self.torque, self.field, self.temperature, self.lamp,
+                  self.accelerometer, self.sun)  # fmt: skip
+        single = {each.column for each in (*self.masses, *self.devices)}
+        return frozenset(single.union(*(each.names for each in groups if each is not None)))

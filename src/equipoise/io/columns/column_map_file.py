@@ -10,7 +10,7 @@ body = ["x", "-z", "y"]             # our body axes in terms of the table's
 mean_of_frames = true               # quaternions may be short
 [time]
 column = "t"
-unit = "ms"                         # or, for text: format = "ISO", or "clock of the day"
+unit = "ms"                         # or "100 ns"; for text: format = "ISO", or "clock of the day"
 [attitude]
 columns = ["qx", "qy", "qz", "qw"]
 order = "xyzw"

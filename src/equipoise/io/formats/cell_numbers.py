@@ -1,12 +1,14 @@
 """Cells of a text as numbers: what is blank, what says that it is no number, what is neither."""
 
 import math
+import re
 from collections.abc import Sequence
 
 import numpy as np
 
 from equipoise.io.columns.table import Numbers
 
+FORTRAN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))[dD]([+-]?\d+)")  # an exponent of double precision
 NAN = frozenset({"nan", "na", "n/a", "#n/a", "null", "none", "-", "--"})  # words for no number
 
 
@@ -26,8 +28,16 @@ def numbers_of(cells: Sequence[str], decimal: str) -> Numbers:
 
 def _number(cell: str, decimal: str) -> float:
     """Return one cell's number, NaN if it is blank or no number."""
+    number = number_in(cell, decimal)
+    return math.nan if number is None else number
+
+
+def number_in(cell: str, decimal: str) -> float | None:
+    """Return the number that a cell holds, also as Fortran prints it (1.0D+00); else None."""
     text = cell.strip()
+    text = text.replace(",", ".") if decimal == "," else text
+    fortran = FORTRAN.fullmatch(text)
     try:
-        return float(text.replace(",", ".") if decimal == "," else text)
+        return float(f"{fortran[1]}e{fortran[2]}" if fortran else text)
     except ValueError:
-        return math.nan
+        return None

@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass
 
 from equipoise.io.columns.column_map import Layout
+from equipoise.io.formats.cell_numbers import number_in
 from equipoise.io.formats.text_rows import HEAD_LINES
 from equipoise.io.toml.units import TO_SI
 from equipoise.model.errors import InputError
@@ -123,8 +124,4 @@ def _holds_data(row: list[str]) -> bool:
 
 def is_number(cell: str) -> bool:
     """Say whether a cell is a number, with a point or a comma."""
-    try:
-        float(cell.replace(",", "."))
-    except ValueError:
-        return False
-    return True
+    return number_in(cell, ",") is not None

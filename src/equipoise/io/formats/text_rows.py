@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from equipoise.io.columns.column_map import Layout
+from equipoise.io.formats.labelled_lines import NOTE, labelled
 from equipoise.model.errors import InputError
 
 SEPARATORS = (";", "\t")  # sought before the comma, which may be a decimal comma
@@ -32,6 +33,10 @@ def text_rows(text: str, source: str, layout: Layout) -> TextRows:
     """Return the rows of a text; InputError for a line that cannot be cut."""
     all_lines, notes = _without_prefix(text.splitlines())
     all_lines = [_without_comment(line) for line in all_lines]
+    said = labelled(all_lines, HEAD_LINES) if layout.separator is None else None
+    if said is not None:
+        decimal = layout.decimal or "."
+        return TextRows(said.rows, said.lines, decimal, (*notes, NOTE), " ")
     separator = layout.separator or separator_of(all_lines)
     cut = _by_spaces if separator == " " else _by_separator
     rows, lines = cut(all_lines, source, separator)

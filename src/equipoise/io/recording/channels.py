@@ -9,10 +9,14 @@ from numpy.typing import NDArray
 from equipoise.io.columns.axis_permutation import axes_matrix
 from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
+from equipoise.io.columns.sentinels import sentinel_rows
 from equipoise.io.columns.table import BLANK, Numbers, Table
 from equipoise.model.arrays import Bools, Floats, Ints, Series1
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import CHANNELS, Samples
+
+# Channels of readings that scatter; a setting may stand at 999 for long.
+SENSORS = frozenset({"attitude", "rate", "field", "accelerometer", "sun"})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,6 +95,7 @@ def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, li
     """
     table, rows = source.table, source.rows
     numbers = _numbers(table, columns)
+    marked = _sentinels(source, name, numbers)
     values = np.stack([each.values for each in numbers], axis=1)[rows]
     garbage = _marked(table, [each.garbage for each in numbers])[rows]
     nan = _marked(table, [each.nan for each in numbers])[rows]
@@ -98,15 +103,36 @@ def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, li
     none = np.isnan(values).all(axis=1) & ~garbage  # no reading here
     if (none & nan).any():
         none &= ~nan | source.alive()[rows]
-    bad = (garbage | nan) & ~none
-    partly = ~full & ~none & ~bad
+    sentinel = marked[rows] & ~none
+    bad = (garbage | nan) & ~none & ~sentinel
+    partly = ~full & ~none & ~bad & ~sentinel
+    full &= ~sentinel
     found = [
         _faulty(source, name, columns, kind, mask)
         for kind, mask in ((RowFault.NOT_A_NUMBER, bad), (RowFault.PARTLY_BLANK, partly))
         if mask.any()
     ]
+    found += _marked_rows(source, columns, numbers, sentinel)
     si = (values[full] - np.array(columns.offset)) * np.array(columns.factor)
-    return Channel(name, source.time[rows][full], si, rows[full]), found
+    whole = Channel(name, source.time[rows][full], si, rows[full])
+    return _without_overflow(whole, table, columns, found)
+
+
+def _without_overflow(
+    channel: Channel, table: Table, columns: Columns, found: list[FaultyRows]
+) -> tuple[Channel, list[FaultyRows]]:
+    """Return a channel without the rows that are beyond any number in SI, and all its faults."""
+    over = ~np.isfinite(channel.values)
+    mask: Bools = over.any(axis=1)
+    if not mask.any():
+        return channel, found
+    row = int(np.argmax(mask))
+    column, place = columns.names[int(np.argmax(over[row]))], int(channel.rows[row])
+    where = f"{table.source}, {table.place(place)}, column '{column}'"
+    said = f"{table.numbers(column).values[place]:.9g}, which is beyond any number in SI"
+    wanted = "a reading, with the unit, factor and offset that it has"
+    fault = FaultyRows(RowFault.BEYOND, channel.rows[mask], where, said, wanted)
+    return channel.keep(~mask), [*found, fault]
 
 
 def in_body_axes(channel: Channel, columns: Columns, body: tuple[str, str, str]) -> Channel:
@@ -115,6 +141,29 @@ def in_body_axes(channel: Channel, columns: Columns, body: tuple[str, str, str])
     if axes == ("x", "y", "z"):
         return channel  # verbatim: a product with one would be the same, but for -0.0
     return Channel(channel.name, channel.t, channel.values @ axes_matrix(axes).T, channel.rows)
+
+
+def _sentinels(source: Rows, name: str, numbers: list[Numbers]) -> Bools:
+    """Return the rows with a number that stands for no reading, in files that are not ours."""
+    if name not in SENSORS or source.columns.native:
+        return np.zeros(len(source.table), dtype=bool)
+    return _marked(source.table, [sentinel_rows(each.values) for each in numbers])
+
+
+def _marked_rows(
+    source: Rows, columns: Columns, numbers: list[Numbers], mask: Bools
+) -> list[FaultyRows]:
+    """Return the rows of numbers that stand for no reading, as one fault."""
+    if not mask.any():
+        return []
+    table, faulty = source.table, source.rows[mask]
+    row = int(faulty[0])
+    stands = [row in sentinel_rows(each.values) for each in numbers]
+    column = columns.names[stands.index(True)]
+    where = f"{table.source}, {table.place(row)}, column '{column}'"
+    found = f"{table.numbers(column).values[row]:.9g}, which stands for no reading"
+    wanted = f"a reading, or {table.blank} for none"
+    return [FaultyRows(RowFault.SENTINEL, faulty, where, found, wanted)]
 
 
 def _marked(table: Table, rows: list[Ints]) -> Bools:

@@ -12,6 +12,8 @@ from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
 TILTED = math.radians(60)  # chosen: no table on a hemisphere swings about a mean tilt beyond this
+LEANS = math.radians(30)  # chosen: axes of a laboratory are made level at least by eye
+TIMES = 3.0  # the scatter about it, from which a direction is another beyond doubt (chosen)
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 
 
@@ -27,6 +29,7 @@ def check_frame(recording: Recording, testbed: Testbed) -> None:
     limit = max(TILTED, testbed.tilt_limit)
     angle = float(np.median(tilts))
     if angle <= limit:
+        _check_level(recording, attitude, testbed)
         return
     found = (
         f"gravity that does not point down: the platform would be tilted by {_degrees(angle)} in "
@@ -34,6 +37,31 @@ def check_frame(recording: Recording, testbed: Testbed) -> None:
     )
     shown, wanted = _fallen(attitude, tilts, limit) or _turned(attitude, testbed.up, limit)
     raise InputError(recording.source or "recording", f"{found}; {shown}", wanted)
+
+
+def _check_level(recording: Recording, attitude: Samples, testbed: Testbed) -> None:
+    """Raise InputError when the platform swings about a direction beyond its stop.
+
+    What it swings about, or turns about, is the vertical: the laboratory is tilted.
+    """
+    upright = to_matrix(attitude.values) @ testbed.up
+    middle = upright.mean(axis=0)
+    middle = middle / max(float(np.linalg.norm(middle)), np.finfo(float).tiny)
+    scatter = float(np.median(np.arccos(np.clip(upright @ middle, -1.0, 1.0))))
+    off = float(np.arccos(np.clip(middle[2], -1.0, 1.0)))
+    if off <= max(LEANS, testbed.tilt_limit, TIMES * scatter):
+        return
+    stop = _degrees(testbed.tilt_limit)
+    found = (
+        f"gravity that does not point down: the body axis {_named(testbed.up)} stays within "
+        f"{_degrees(scatter)} (median) of a direction that is {_degrees(off)} from the "
+        f"laboratory's vertical, beyond the platform's stop at {stop}"
+    )
+    wanted = (
+        "attitudes in a laboratory whose Z is up: level its axes (the ground plane of a motion "
+        "capture) and record anew; or the tilt_limit_deg that the platform has, if it stands so"
+    )
+    raise InputError(recording.source or "recording", found, wanted)
 
 
 def _fallen(attitude: Samples, tilts: Series1, limit: float) -> tuple[str, str] | None:

@@ -9,6 +9,7 @@ TO_SI = {
     "ms": si.MS,
     "us": si.US,
     "ns": si.NS,
+    "100 ns": si.TICK,
     "min": si.MINUTE,
     "rad": 1.0,
     "deg": si.DEG,
@@ -53,7 +54,7 @@ TO_SI = {
     "K": 1.0,
 }
 KINDS = {
-    "time": ("s", "ms", "us", "ns", "min"),
+    "time": ("s", "ms", "us", "ns", "100 ns", "min"),
     "angle": ("rad", "deg"),
     "rate": ("rad/s", "deg/s", "mrad/s", "mdeg/s", "rpm"),
     "length": ("m", "cm", "mm", "um"),
