@@ -35,7 +35,7 @@ def record() -> Recording:
     )  # fmt: skip
 
 
-def message(store, kind: str, k: int, child="platform", frame="x"):
+def message(store, kind: str, k: int, child="platform", frame="x", felt=(0.0, 0.0, 0.0)):
     """The k-th message of a topic: a quarter second after the one before.
 
     A tree holds the child frames that are named, with commas between, and 'mount', which is fixed.
@@ -51,7 +51,7 @@ def message(store, kind: str, k: int, child="platform", frame="x"):
     twist = types["geometry_msgs/msg/Twist"](still, rate)
     transform = types["geometry_msgs/msg/Transform"](still, turn)
     made = {
-        IMU: (header, turn, none, rate, none, still, none),
+        IMU: (header, turn, none, rate, none, vector(*felt), none),
         POSE: (header, pose),
         TURNED: (header, turn),
         TRANSFORM: (header, child, transform),
