@@ -35,11 +35,14 @@ def record() -> Recording:
     )  # fmt: skip
 
 
-def message(store, kind: str, k: int, child="platform", frame="x", felt=(0.0, 0.0, 0.0)):
+def message(store, kind: str, k: int, **said):
     """The k-th message of a topic: a quarter second after the one before.
 
-    A tree holds the child frames that are named, with commas between, and 'mount', which is fixed.
+    Said are ``frame``, ``child`` and ``felt``, an acceleration. A tree holds the child frames that
+    are named, with commas between, and 'mount', which is fixed.
     """
+    child, frame = said.get("child", "platform"), said.get("frame", "x")
+    felt = said.get("felt", (0.0, 0.0, 0.0))
     types = store.types
     header = header_of(store, k, frame)
     w, x, y, z = TURN

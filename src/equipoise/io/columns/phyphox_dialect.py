@@ -2,9 +2,9 @@
 
 Each sensor is a table of its own (https://phyphox.org, "Export"): 'Time (s)' and 'Gyroscope x
 (rad/s)' to z, or 'w', 'x', 'y', 'z' of the attitude. An experiment of one's own may put
-'Acceleration x (m/s^2)' to z beside them, at rest g upwards. The quaternion turns the phone's axes (x to
-the right of its screen, y up, z out of it) into east, north, up (https://developer.android.com,
-SensorEvent, "Sensor.TYPE_ROTATION_VECTOR").
+'Acceleration x (m/s^2)' to z beside them, at rest g upwards. The quaternion turns the phone's axes
+(x to the right of its screen, y up, z out of it) into east, north, up
+(https://developer.android.com, SensorEvent, "Sensor.TYPE_ROTATION_VECTOR").
 """
 
 from equipoise.io.columns.column_map import ColumnMap, Columns
