@@ -38,11 +38,11 @@ def record() -> Recording:
 def message(store, kind: str, k: int, **said):
     """The k-th message of a topic: a quarter second after the one before.
 
-    Said are ``frame``, ``child`` and ``felt``, an acceleration. A tree holds the child frames that
+    Said are ``frame``, ``child`` and ``acceleration``, an acceleration. A tree holds the child frames that
     are named, with commas between, and 'mount', which is fixed.
     """
     child, frame = said.get("child", "platform"), said.get("frame", "x")
-    felt = said.get("felt", (0.0, 0.0, 0.0))
+    acceleration = said.get("acceleration", (0.0, 0.0, 0.0))
     types = store.types
     header = header_of(store, k, frame)
     w, x, y, z = TURN
@@ -54,7 +54,7 @@ def message(store, kind: str, k: int, **said):
     twist = types["geometry_msgs/msg/Twist"](still, rate)
     transform = types["geometry_msgs/msg/Transform"](still, turn)
     made = {
-        IMU: (header, turn, none, rate, none, vector(*felt), none),
+        IMU: (header, turn, none, rate, none, vector(*acceleration), none),
         POSE: (header, pose),
         TURNED: (header, turn),
         TRANSFORM: (header, child, transform),

@@ -83,7 +83,7 @@ def gyro_rows(w: Floats, sensor: Gyro, bias: Vector3, rng: np.random.Generator) 
     return mean + bias + sensor.noise * rng.standard_normal((len(w), 3))
 
 
-def vectors_seen(q: Floats, w: Floats, sensor: VectorSensor) -> Series3:
+def exact_vectors(q: Floats, w: Floats, sensor: VectorSensor) -> Series3:
     """Return exact vectors by attitudes (n, 1 or 3, 4) and rates (n, 1 or 3, 3) at the samples."""
     still = np.zeros_like(w[:, 0])
     change = np.einsum("j,njk->nk", SLOPE, w) if w.shape[1] == len(SLOPE) else still
@@ -94,5 +94,5 @@ def vector_rows(
     q: Floats, w: Floats, sensor: VectorSensor, bias: Vector3, rng: np.random.Generator
 ) -> Series3:
     """Return measured vectors from attitudes (n, 1 or 3, 4) and rates (n, 1 or 3, 3) at samples."""
-    vectors = vectors_seen(q, w, sensor)
+    vectors = exact_vectors(q, w, sensor)
     return vectors + bias + sensor.noise * rng.standard_normal(vectors.shape)

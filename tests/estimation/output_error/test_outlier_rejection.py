@@ -42,14 +42,14 @@ def test_wild_rows_of_an_accelerometer_go_and_no_others():
     """One row in fifty is off by 50 m/s^2; the sun sensor beside it, whose rows mix, is sound."""
     bed = without_camera("sun")
     record = imagined(bed, bed.body, SWING).recording
-    felt = record.accelerometer
-    noise = np.random.default_rng(1).normal(0.0, bed.accelerometer.noise, felt.values.shape)
-    values, odd = felt.values + noise, np.arange(10, len(felt), 50)
+    acceleration = record.accelerometer
+    noise = np.random.default_rng(1).normal(0.0, bed.accelerometer.noise, acceleration.values.shape)
+    values, odd = acceleration.values + noise, np.arange(10, len(acceleration), 50)
     values[odd] += [50.0, 0.0, 0.0]
-    spoilt = replace(record, accelerometer=Samples(felt.t, values))
+    spoilt = replace(record, accelerometer=Samples(acceleration.t, values))
     kept, gone = without_outliers(spoilt, bed, Params())
     assert gone == len(odd)
-    np.testing.assert_array_equal(kept.accelerometer.t, np.delete(felt.t, odd))
+    np.testing.assert_array_equal(kept.accelerometer.t, np.delete(acceleration.t, odd))
     assert len(kept.sun) == len(record.sun)
     assert len(kept.rate) == len(record.rate)
 

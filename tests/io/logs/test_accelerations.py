@@ -13,7 +13,7 @@ from tests.support.flight_logs import LAYOUTS, dataflash, flight
 from tests.support.sample_logs import IMU, ODOMETRY, VECTOR, bag_1, bag_2
 
 LEANING = (1.0, 2.0, 9.6)  # m/s^2: what an inertial unit of ROS reports, z up
-FELT = (1.0, -2.0, -9.6)  # the same in FRD
+ACCELERATION_FRD = (1.0, -2.0, -9.6)  # the same in FRD
 
 
 def opened(tmp_path, content, name, **stated):
@@ -23,7 +23,7 @@ def opened(tmp_path, content, name, **stated):
 
 @pytest.mark.parametrize("bag", [bag_1, bag_2], ids=["ros1", "ros2"])
 def test_an_inertial_unit_of_ros_gives_them(tmp_path, bag):
-    found = read_recording(bag(tmp_path / "run.bag", {"/imu": IMU}, felt=LEANING))
+    found = read_recording(bag(tmp_path / "run.bag", {"/imu": IMU}, acceleration=LEANING))
     np.testing.assert_allclose(found.accelerometer.values, [LEANING] * len(found.rate))
     np.testing.assert_array_equal(found.accelerometer.t, found.rate.t)
 
@@ -35,7 +35,7 @@ def test_zeros_were_never_filled_in(tmp_path):
 def test_of_two_inertial_units_beside_another_rate_none_is_taken(tmp_path):
     """They are no reason to refuse a log whose motion is stated."""
     topics = {"/odom": ODOMETRY, "/left": IMU, "/right": IMU, "/gyro": VECTOR}
-    path = bag_1(tmp_path / "run.bag", topics, felt=LEANING)
+    path = bag_1(tmp_path / "run.bag", topics, acceleration=LEANING)
     found = read_recording(path, ReadOptions(topics=("/odom",)))
     assert found.accelerometer is None
     one = read_recording(path, ReadOptions(topics=("/odom", "/left")))
@@ -54,7 +54,7 @@ def test_px4_has_them_in_frd(tmp_path, topic, monkeypatch):
     """Turned as the gyro is: z down becomes z up."""
     monkeypatch.setattr(px4, "ROWS", px4.ROWS | PX4_ROWS)
     gyro = ("sensor_gyro", 0, (0.1, 0.2, 0.3), 4)
-    found = opened(tmp_path, px4.log(gyro, (topic, 0, FELT, 4)), "run.ulg")
+    found = opened(tmp_path, px4.log(gyro, (topic, 0, ACCELERATION_FRD, 4)), "run.ulg")
     np.testing.assert_allclose(found.accelerometer.values, [LEANING] * 4, rtol=1e-6)
     np.testing.assert_allclose(found.rate.values, [(0.1, -0.2, -0.3)] * 4, rtol=1e-6)
 
@@ -63,8 +63,8 @@ def test_px4_has_them_in_frd(tmp_path, topic, monkeypatch):
 def test_of_px4s_instances_the_stated_one_is_taken(tmp_path, instance, monkeypatch):
     monkeypatch.setattr(px4, "ROWS", px4.ROWS | PX4_ROWS)
     gyros = [("sensor_gyro", k, (0.1, 0.2, 0.3), 4) for k in (0, 1)]
-    felt = [("sensor_accel", k, (1.0 + k, -2.0, -9.6), 4) for k in (0, 1)]
-    found = opened(tmp_path, px4.log(*gyros, *felt), "run.ulg", instance=instance)
+    acceleration = [("sensor_accel", k, (1.0 + k, -2.0, -9.6), 4) for k in (0, 1)]
+    found = opened(tmp_path, px4.log(*gyros, *acceleration), "run.ulg", instance=instance)
     np.testing.assert_allclose(found.accelerometer.values[:, 0], 1.0 + instance)
 
 
@@ -77,7 +77,7 @@ def test_ardupilots_message_of_its_own_counts_where_the_gyro_has_one(tmp_path, m
     """GYR and ACC, which are logged raw."""
     monkeypatch.setitem(LAYOUTS, "ACC", (9, "QBQfff", "TimeUS,I,SampleUS,AccX,AccY,AccZ"))
     rows = b"".join(
-        bytes([0xA3, 0x95, 9]) + struct.pack("<QBQfff", us + 900, 0, us, *FELT)
+        bytes([0xA3, 0x95, 9]) + struct.pack("<QBQfff", us + 900, 0, us, *ACCELERATION_FRD)
         for us in range(7_000_000, 7_040_000, 10_000)
     )
     content = dataflash(rows, names=("ACC",)) + flight("GYR")

@@ -66,10 +66,10 @@ def test_an_imagined_record_is_that_of_the_simulated_bench(kit):
                   still.rate, 0.0, {}, 0.0, 30.0, level)  # fmt: skip
     bench = SimulatedBench(replace(noiseless(bed), truth=start), 0).read(20.0)
     for sensor in vector_sensors(bed):
-        said, seen = getattr(made.recording, sensor.channel), getattr(bench, sensor.channel)
-        rows = np.searchsorted(seen.t, said.t)
-        assert len(seen) - len(said) <= 1
-        np.testing.assert_allclose(said.values, seen.values[rows], atol=0.01 * sensor.noise)
+        said, simulated = getattr(made.recording, sensor.channel), getattr(bench, sensor.channel)
+        rows = np.searchsorted(simulated.t, said.t)
+        assert len(simulated) - len(said) <= 1
+        np.testing.assert_allclose(said.values, simulated.values[rows], atol=0.01 * sensor.noise)
 
 
 @pytest.mark.parametrize("kit", KITS)

@@ -20,22 +20,24 @@ BED = without_camera("imu")
 
 def recorded():
     record = imagined(BED, BED.body, SWING).recording
-    rng, felt = np.random.default_rng(5), record.accelerometer
-    noisy = felt.values + rng.normal(0.0, BED.accelerometer.noise, felt.values.shape)
+    rng, acceleration = np.random.default_rng(5), record.accelerometer
+    noisy = acceleration.values + rng.normal(
+        0.0, BED.accelerometer.noise, acceleration.values.shape
+    )
     turning = record.rate.values + rng.normal(0.0, BED.gyro.noise, record.rate.values.shape)
     rate = Samples(record.rate.t, turning)
-    return replace(record, rate=rate, accelerometer=Samples(felt.t, noisy))
+    return replace(record, rate=rate, accelerometer=Samples(acceleration.t, noisy))
 
 
 def test_wild_rows_go_and_no_others():
     """One row in a hundred is off by 50 m/s^2; masses that start and stop are no outliers."""
     record = recorded()
-    felt = record.accelerometer
-    wild, odd = felt.values.copy(), np.arange(50, len(felt), 100)
+    acceleration = record.accelerometer
+    wild, odd = acceleration.values.copy(), np.arange(50, len(acceleration), 100)
     wild[odd] += np.random.default_rng(6).normal(0.0, 50.0, (len(odd), 3))
-    spoilt = replace(record, accelerometer=Samples(felt.t, wild))
+    spoilt = replace(record, accelerometer=Samples(acceleration.t, wild))
     kept, _ = sound(spoilt, BED)
-    np.testing.assert_array_equal(kept.accelerometer.t, np.delete(felt.t, odd))
+    np.testing.assert_array_equal(kept.accelerometer.t, np.delete(acceleration.t, odd))
     (found,) = odd_row_findings(spoilt)
     assert found.reasons[0].numbers["count"] == len(odd)
 

@@ -23,7 +23,7 @@ def is_phyphox(names: tuple[str, ...]) -> bool:
 
 def phyphox_map(names: tuple[str, ...], source: str) -> ColumnMap:
     """Return the map of a table of phyphox."""
-    turn, rate, felt = ({*group} <= {*names} for group in (TURN, RATE, ACCELERATION))
+    turn, rate, acceleration = ({*group} <= {*names} for group in (TURN, RATE, ACCELERATION))
     if TIME not in names or not (turn or rate):
         missing = "neither gyroscope nor attitude" if TIME in names else f"no '{TIME}'"
         wanted = f"'{TIME}' with {', '.join(RATE)} or {', '.join(TURN)}"
@@ -32,5 +32,5 @@ def phyphox_map(names: tuple[str, ...], source: str) -> ColumnMap:
         time=(Columns((TIME,)),),
         quaternion=Columns(TURN) if turn else None,
         rate=Columns(RATE) if rate else None,
-        accelerometer=Columns(ACCELERATION) if felt else None,
+        accelerometer=Columns(ACCELERATION) if acceleration else None,
     )

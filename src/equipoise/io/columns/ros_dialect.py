@@ -36,7 +36,7 @@ def ros_map(names: tuple[str, ...], source: str) -> ColumnMap:
     plain = [_plain(name) for name in names]
     attitude, more = _topic(names, plain, f"{TURN}w", "wxyz")
     rate, others = _topic(names, plain, f"{RATE}x", "xyz")
-    felt, unused = _topic(names, plain, f"{ACCELERATION}x", "xyz")
+    acceleration, unused = _topic(names, plain, f"{ACCELERATION}x", "xyz")
     if attitude is None and rate is None:
         wanted = "columns such as 'orientation/x' or 'angular_velocity/x'"
         raise InputError(f"{source}, header", "neither an orientation nor a rate", wanted)
@@ -45,7 +45,7 @@ def ros_map(names: tuple[str, ...], source: str) -> ColumnMap:
         time=_stamp(names, plain, source),
         quaternion=attitude,
         rate=rate,
-        accelerometer=felt,
+        accelerometer=acceleration,
         notes=left,
     )
 

@@ -83,8 +83,8 @@ def chosen(
     if not taken:
         wanted = f"a log of a motion; read are {', '.join(_kinds(best))}"
         raise InputError(file, f"{NEITHER}; {_listed(sources)}", wanted)
-    felt = _beside(candidates, taken.get("rate"), options, best.get(BESIDE, ()))
-    taken |= {} if felt is None else {BESIDE: felt}
+    acceleration = _beside(candidates, taken.get("rate"), options, best.get(BESIDE, ()))
+    taken |= {} if acceleration is None else {BESIDE: acceleration}
     _check_all_used(taken, file, options)
     _check_instance(taken, known, file, options)
     channels = [source.channels[channel] for channel, source in taken.items()]

@@ -63,7 +63,7 @@ def _vector(rate: Any) -> Values:
     return {"rate": (float(rate.x), float(rate.y), float(rate.z))}
 
 
-def _felt(acceleration: Any) -> Values:
+def _acceleration(acceleration: Any) -> Values:
     row = (float(acceleration.x), float(acceleration.y), float(acceleration.z))
     return {"accelerometer": row} if any(row) else {}  # all zero: never filled in
 
@@ -71,11 +71,11 @@ def _felt(acceleration: Any) -> Values:
 def _imu(message: Any) -> Values:
     turns = message.orientation_covariance[0] != NONE
     spins = message.angular_velocity_covariance[0] != NONE
-    feels = message.linear_acceleration_covariance[0] != NONE
+    accelerates = message.linear_acceleration_covariance[0] != NONE
     return {
         **(_quaternion(message.orientation) if turns else {}),
         **(_vector(message.angular_velocity) if spins else {}),
-        **(_felt(message.linear_acceleration) if feels else {}),
+        **(_acceleration(message.linear_acceleration) if accelerates else {}),
     }
 
 

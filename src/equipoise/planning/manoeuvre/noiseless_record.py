@@ -28,7 +28,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
 from equipoise.sensors.vector_sensors import VectorSensor, vector_sensors
 from equipoise.simulation import actuator
-from equipoise.simulation.camera_and_gyro import Sensor, sampled_at, vectors_seen
+from equipoise.simulation.camera_and_gyro import Sensor, sampled_at, exact_vectors
 from equipoise.simulation.clock import samples, tick_one
 from equipoise.simulation.devices import inputs_of, started
 from equipoise.simulation.followers import driven, followed
@@ -104,8 +104,8 @@ def vectors_along(line: Timeline, motion: Motion, stamped: list[Stamped]) -> dic
     found = dict[str, Samples]()
     for sensor, t in stamped:
         node, _ = place(line.t, sampled_at(sensor, t) + SAME)
-        seen = vectors_seen(motion.q[node], motion.rate[node], sensor)
-        found[sensor.channel] = Samples(t, seen)
+        vectors = exact_vectors(motion.q[node], motion.rate[node], sensor)
+        found[sensor.channel] = Samples(t, vectors)
     return found
 
 
