@@ -38,8 +38,8 @@ def record() -> Recording:
 def message(store, kind: str, k: int, **said):
     """The k-th message of a topic: a quarter second after the one before.
 
-    Said are ``frame``, ``child`` and ``acceleration``, an acceleration. A tree holds the child frames that
-    are named, with commas between, and 'mount', which is fixed.
+    Said are ``frame``, ``child`` and ``acceleration``. A tree holds the child frames that are
+    named, with commas between, and 'mount', which is fixed.
     """
     child, frame = said.get("child", "platform"), said.get("frame", "x")
     acceleration = said.get("acceleration", (0.0, 0.0, 0.0))

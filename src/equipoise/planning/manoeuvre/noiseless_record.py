@@ -28,7 +28,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
 from equipoise.sensors.vector_sensors import VectorSensor, vector_sensors
 from equipoise.simulation import actuator
-from equipoise.simulation.camera_and_gyro import Sensor, sampled_at, exact_vectors
+from equipoise.simulation.camera_and_gyro import Sensor, exact_vectors, sampled_at
 from equipoise.simulation.clock import samples, tick_one
 from equipoise.simulation.devices import inputs_of, started
 from equipoise.simulation.followers import driven, followed
