@@ -35,11 +35,14 @@ def record() -> Recording:
     )  # fmt: skip
 
 
-def message(store, kind: str, k: int, child="platform", frame="x"):
+def message(store, kind: str, k: int, **said):
     """The k-th message of a topic: a quarter second after the one before.
 
-    A tree holds the child frames that are named, with commas between, and 'mount', which is fixed.
+    Said are ``frame``, ``child`` and ``acceleration``. A tree holds the child frames that are
+    named, with commas between, and 'mount', which is fixed.
     """
+    child, frame = said.get("child", "platform"), said.get("frame", "x")
+    acceleration = said.get("acceleration", (0.0, 0.0, 0.0))
     types = store.types
     header = header_of(store, k, frame)
     w, x, y, z = TURN
@@ -51,7 +54,7 @@ def message(store, kind: str, k: int, child="platform", frame="x"):
     twist = types["geometry_msgs/msg/Twist"](still, rate)
     transform = types["geometry_msgs/msg/Transform"](still, turn)
     made = {
-        IMU: (header, turn, none, rate, none, still, none),
+        IMU: (header, turn, none, rate, none, vector(*acceleration), none),
         POSE: (header, pose),
         TURNED: (header, turn),
         TRANSFORM: (header, child, transform),

@@ -100,13 +100,16 @@ def errors_of(channel: str, truth: Truth) -> VectorErrors:
     }[channel]
 
 
+def exact_vectors(q: Floats, w: Floats, sensor: VectorSensor) -> Series3:
+    """Return exact vectors by attitudes (n, 1 or 3, 4) and rates (n, 1 or 3, 3) at the samples."""
+    still = np.zeros_like(w[:, 0])
+    change = np.einsum("j,njk->nk", SLOPE, w) if w.shape[1] == len(SLOPE) else still
+    return vectors_in_body(sensor, q[:, 0], w[:, 0], change)
+
+
 def vector_rows(
     q: Floats, w: Floats, sensor: VectorSensor, off: VectorErrors, rng: np.random.Generator
 ) -> Series3:
     """Return measured vectors from attitudes (n, 1 or 3, 4) and rates (n, 1 or 3, 3) at samples."""
-    still = np.zeros_like(w[:, 0])
-    change = np.einsum("j,njk->nk", SLOPE, w) if w.shape[1] == len(SLOPE) else still
-    vectors = vectors_in_body(sensor, q[:, 0], w[:, 0], change) @ to_matrix(
-        exponential(off.mounting)
-    )
+    vectors = exact_vectors(q, w, sensor) @ to_matrix(exponential(off.mounting))
     return vectors + off.bias + sensor.noise * rng.standard_normal(vectors.shape)

@@ -53,6 +53,7 @@ def test_an_unobservable_value_has_no_bounds():
         ("drift_x", "m/s", "um/min", 1e-6 / 60),
         ("swirl", "N m", "uN m", 1e-6),
         ("inertia_P_xx", "kg m2", "kg m2", 1.0),
+        ("field_bias_x", "T", "uT", 1e-6),
     ],
 )
 def test_units_of_the_bench(name, si, shown, value):

@@ -9,9 +9,16 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.output_error.outlier_rejection import outlying, without_outliers
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.maths.attitude import exponential, multiply
+from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.recording import Samples
+from equipoise.planning.manoeuvre.noiseless_record import imagined
 from tests.support.builders import move_at, noisy, platform, recording
+from tests.support.without_camera import without_camera
 
+SWING = Manoeuvre(
+    40.0, np.radians(6.0), np.array([1.0, 0.0, 0.0]), np.array([-0.02, -0.01, 0.05]),
+    ((20.0, {"x1": -0.010, "y1": -0.010, "z1": -0.050}),),
+)  # fmt: skip
 BED = platform(accuracy=1e-4, gyro=True)
 
 
@@ -29,6 +36,22 @@ def test_the_odd_rows_go_and_no_others():
     assert gone == 6
     assert len(kept.attitude) == len(sound.attitude) - 6
     assert len(kept.rate) == len(sound.rate)
+
+
+def test_wild_rows_of_an_accelerometer_go_and_no_others():
+    """One row in fifty is off by 50 m/s^2; the sun sensor beside it, whose rows mix, is sound."""
+    bed = without_camera("sun")
+    record = imagined(bed, bed.body, SWING).recording
+    acceleration = record.accelerometer
+    noise = np.random.default_rng(1).normal(0.0, bed.accelerometer.noise, acceleration.values.shape)
+    values, odd = acceleration.values + noise, np.arange(10, len(acceleration), 50)
+    values[odd] += [50.0, 0.0, 0.0]
+    spoilt = replace(record, accelerometer=Samples(acceleration.t, values))
+    kept, gone = without_outliers(spoilt, bed, Params())
+    assert gone == len(odd)
+    np.testing.assert_array_equal(kept.accelerometer.t, np.delete(acceleration.t, odd))
+    assert len(kept.sun) == len(record.sun)
+    assert len(kept.rate) == len(record.rate)
 
 
 def test_a_robust_estimate_says_how_many_it_left_out():

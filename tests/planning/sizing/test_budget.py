@@ -24,9 +24,10 @@ from equipoise.planning.sizing.environment import Surroundings
 from equipoise.planning.sizing.limits import limit_sentence, verdict, worth_listing
 from equipoise.planning.sizing.measurement_bound import first_bound, later_bound
 from equipoise.planning.sizing.reachable_set import reach_of
-from equipoise.planning.sizing.sensitivity import changes, what_to_buy
+from equipoise.planning.sizing.sensitivity import VECTOR_SENSORS, changes, what_to_buy
 from equipoise.planning.sizing.sizing import sized
 from tests.planning.sizing.layouts import TOTAL, X, Y, Z, mass, testbed
+from tests.support.without_camera import KITS, without_camera
 
 TILT = np.radians(20.0)
 
@@ -207,6 +208,25 @@ def test_each_change_betters_what_it_says():
         if change.line in ("steps", "stops") and "move" not in change.name:
             after = torque_of(budget_of(change.case), change.line)
             assert after < 0.75 * torque_of(now, change.line), change.name
+
+
+def test_a_platform_without_a_camera_is_measured_by_its_sensors_of_vectors():
+    """Near balance a gyro alone does not show the centre of mass: its tilt is not known."""
+    bed = without_camera("imu")
+    for sensors, unseen in ((bed, False), (replace(bed, accelerometer=None), True)):
+        last = later_bound(sensors, 60.0, np.zeros(3), first_bound(sensors, 60.0))
+        assert any(reason.code == "com_unobservable" for reason in last.cautions) == unseen
+
+
+def test_each_sensor_of_a_vector_can_be_better():
+    """Half the noise of each is a change of its own, and leaves no more."""
+    bed = replace(without_camera("sun"), **KITS["compass"])
+    found = {change.name: change.case for change in changes(case(bed))}
+    now = first_bound(bed, 60.0)
+    for name, called in VECTOR_SENSORS.items():
+        better = found[f"half the {called}'s noise"].testbed
+        assert getattr(better, name).noise == 0.5 * getattr(bed, name).noise
+        assert (first_bound(better, 60.0).com_sd < now.com_sd).all(), name
 
 
 def test_improvements_are_sorted_best_first_and_useless_ones_omitted():

@@ -25,7 +25,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.finding import Finding
 from equipoise.model.step import Step
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.model.units import DEG, GRAM, MM
+from equipoise.model.units import DEG, GRAM, MM, UT
 
 ALL_OBSERVED = "The data or a prior determine every quantity above."
 
@@ -111,6 +111,14 @@ def _platform_pairs(bed: Testbed) -> dict[str, str]:
         pairs["camera"] = f"{bed.attitude.rate:g} Hz, {noise}"
     if bed.gyro is not None:
         pairs["gyro"] = f"{bed.gyro.rate:g} Hz, {bed.gyro.noise / DEG:.3g} deg/s (1 sd)"
+    if bed.accelerometer is not None:
+        noise = f"{bed.accelerometer.noise:.3g} m/s2 (1 sd)"
+        pairs["accelerometer"] = f"{bed.accelerometer.rate:g} Hz, {noise}"
+    if bed.sun is not None:
+        pairs["sun sensor"] = f"{bed.sun.rate:g} Hz, {bed.sun.noise:.3g} of a unit vector (1 sd)"
+    if bed.magnetometer is not None:
+        noise = f"{bed.magnetometer.noise / UT:.3g} uT (1 sd)"
+        pairs["magnetometer"] = f"{bed.magnetometer.rate:g} Hz, {noise}"
     return pairs
 
 

@@ -6,7 +6,7 @@ Two digits of the sd are shown; the units are um, mm, g, deg, deg/s and uN m.
 import math
 from dataclasses import dataclass
 
-from equipoise.model.units import DEG, GRAM, MINUTE, MM, MS, UM, UN_M
+from equipoise.model.units import DEG, GRAM, MINUTE, MM, MS, UM, UN_M, UT
 
 DIGITS = 2  # of the sd; the second keeps its rounding below 5 %
 EXACT = 1e-6  # chosen: an sd below this share of the value is none; the value was held
@@ -73,6 +73,7 @@ SHOWN = {
     "N m s2": Unit("uN m s2", UN_M),
     "m/s": Unit("um/min", UM / MINUTE),
     "m/K": Unit("um/K", UM),
+    "T": Unit("uT", UT),
     "1/(kg m)": Unit("um/(kg m2)", UM),
 }
 TRAVEL = Unit("mm", MM)
@@ -84,6 +85,7 @@ TYPESET = {
     "uN m s2": "µN m s²",
     "um/min": "µm/min",
     "um/K": "µm/K",
+    "uT": "µT",
     "um/sqrt(min)": "µm/√min",
     "uJ": "µJ",
     "kg m2": "kg m²",

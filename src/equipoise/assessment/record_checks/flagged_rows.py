@@ -11,10 +11,12 @@ from equipoise.assessment.record_checks.outliers import (
     outlying_attitudes,
     outlying_rates,
 )
+from equipoise.model.arrays import Bools
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples, runs
+from equipoise.sensors.vector_sensors import CHANNELS
 
 NAMED = 5  # rows and runs that are named one by one; chosen: a screen
 
@@ -42,14 +44,28 @@ def odd_rates(rate: Samples) -> OddRows:
     return OddRows(outlying_rates(rate), frozen_rates(rate))
 
 
+def odd_vectors(channel: Samples) -> Bools:
+    """Return which rows of a sensor of a vector lie off the motion of their neighbours."""
+    about = channel.values - np.median(channel.values, axis=0)
+    return outlying_rates(Samples(channel.t, about)).mask
+
+
 def odd_row_findings(recording: Recording) -> list[Finding]:
-    """Return the outlying and frozen rows of both sensors, with their times."""
+    """Return the outlying and frozen rows of camera and gyro, with their times.
+
+    Of sensors of vectors how many are outlying.
+    """
     found: list[Finding] = []
     if recording.attitude is not None and len(recording.attitude) > 1:
         odd = odd_attitudes(recording.attitude)
         found += _reported("attitude", "deg", recording.attitude, odd)
     if recording.rate is not None and len(recording.rate) > 1:
         found += _reported("gyro", "deg/s", recording.rate, odd_rates(recording.rate))
+    for name in CHANNELS:
+        channel: Samples | None = getattr(recording, name)
+        count = 0 if channel is None or len(channel) < 2 else int(odd_vectors(channel).sum())
+        if count:
+            found.append(Finding("problem", one_reason(Why.OUTLYING_VECTORS, name, count=count)))
     return found
 
 

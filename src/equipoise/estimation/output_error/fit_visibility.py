@@ -12,6 +12,7 @@ from equipoise.estimation.output_error.servo_sag_covariance import by_sag
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import JP, TURN, Layout, R, physical
 from equipoise.estimation.parameters.observability import (
+    ALONG,
     OPEN,
     Visibility,
     examine_unheld,
@@ -21,9 +22,11 @@ from equipoise.estimation.parameters.observability import (
 )
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Square
+from equipoise.model.estimate import ATTITUDE
 from equipoise.model.reasons.data_reasons import Unobservable
 from equipoise.model.reasons.reason import Reason
 
+HEADING = Reason(Unobservable.HEADING, ATTITUDE)
 TILTED = 0.25  # rad, chosen: com x n is no straight line over more
 SHARE = 0.2  # of the tilt, chosen: its inverse is straight within a fifth, to 4 % of com
 
@@ -70,6 +73,21 @@ def without_com(view: Visibility, size: Floats) -> Visibility:
     )
 
 
+def with_heading(fitted: Fitted, view: Visibility, size: Floats) -> Visibility:
+    """Return the view in which an unseen turn about the vertical is called what it is.
+
+    It has a part in each number of the attitude, though tilt and rates are known beside it.
+    """
+    up = np.zeros(len(size))
+    up[TURN] = to_matrix(fitted.point.q0)[2]
+    cosine = np.abs(up @ (view.unseen / size[:, None]))
+    found, others = list[Reason](), iter(cosine)
+    for reason in view.unobservable:
+        about = 0.0 if reason == OPEN else float(next(others))
+        found.append(HEADING if about > ALONG else reason)
+    return replace(view, unobservable=tuple(found))
+
+
 def without_anchor(normal: Square, fitted: Fitted) -> Square:
     """Return information without the prior that only keeps a search from wandering."""
     prior = fitted.problem.prior
@@ -89,4 +107,6 @@ def visibility_of(fitted: Fitted) -> Visibility:
     view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
     if is_tilt_open(fitted, view):
         view = without_com(view, size)
+    else:
+        view = with_heading(fitted, view, size)
     return without_scale(view, layout) if problem.scale_open else view

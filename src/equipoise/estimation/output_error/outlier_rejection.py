@@ -11,6 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from equipoise.estimation.motion.observed_vectors import observed
+from equipoise.estimation.output_error.problem import vector_moments
+from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.regression.solvers.robust import MEDIAN
 from equipoise.model.arrays import Bools, Series
@@ -38,15 +41,33 @@ def without(channel: Samples | None, outlying: Bools) -> Samples | None:
     return channel.where(~outlying)
 
 
+def outlying_vectors(fitted: Fitted) -> dict[str, Bools]:
+    """Return which rows of each sensor of a vector are outliers, by its channel.
+
+    Each is judged by itself: a magnetometer near iron says nothing of an accelerometer.
+    """
+    problem, found = fitted.problem, dict[str, Bools]()
+    sensors = observed(problem.recording, problem.testbed)
+    order, _ = vector_moments(problem.recording, problem.testbed, problem.line.t)
+    of, first = problem.observed.vectors.sensor, 0
+    for k, (sensor, rows) in enumerate(sensors):
+        wild = np.zeros(len(rows), dtype=np.bool_)
+        wild[order[of == k] - first] = outlying(fitted.at.left_v[of == k])
+        found[sensor.channel], first = wild, first + len(rows)
+    return found
+
+
 def without_outliers(
     recording: Recording, testbed: Testbed, params: Params
 ) -> tuple[Recording, int]:
     """Return the record without the outliers of its robust fit, and their number."""
-    at = fit(recording, testbed, replace(params, robust=True)).at
-    camera, gyro = outlying(at.left_q), outlying(at.left_w)
+    fitted = fit(recording, testbed, replace(params, robust=True))
+    camera, gyro = outlying(fitted.at.left_q), outlying(fitted.at.left_w)
+    vectors = outlying_vectors(fitted)
     kept = replace(
         recording,
         attitude=without(recording.attitude, camera),
         rate=without(recording.rate, gyro),
+        **{name: without(getattr(recording, name), rows) for name, rows in vectors.items()},
     )
-    return kept, int(camera.sum() + gyro.sum())
+    return kept, int(sum(rows.sum() for rows in (camera, gyro, *vectors.values())))

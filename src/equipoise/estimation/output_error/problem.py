@@ -33,7 +33,7 @@ from equipoise.estimation.parameters.fit_parameters import (
 )
 from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.maths.linalg import element_sizes
-from equipoise.model.arrays import Floats, Series1, Vector3
+from equipoise.model.arrays import Floats, Ints, Series1, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.sensor_terms import GYRO_CLOCK
 from equipoise.model.testbed import Testbed
@@ -207,23 +207,31 @@ def on_the_cameras_clock(t: Series1, testbed: Testbed, start: float) -> Series1:
     return t - fast * (t - start) if fast else t
 
 
-def vectors_of(recording: Recording, testbed: Testbed, t: Series1) -> Vectors:
-    """Return the rows of sensors of vectors in order of time; ``t`` are the nodes (s).
+def vector_moments(recording: Recording, testbed: Testbed, t: Series1) -> tuple[Ints, Series1]:
+    """Return the rows of all sensors of vectors, one sensor behind the other, in order of time.
 
-    They are on the gyro's clock: one computer on board stamps both. Rows outside the span of camera
-    and gyro are left out: the motion begins and ends with these.
+    And when each was measured, s. They are on the gyro's clock: one computer on board stamps both.
+    Rows outside the span of camera and gyro, whose nodes are ``t`` (s), are left out: the motion
+    begins and ends with these.
     """
     found, start = observed(recording, testbed), recording.span[0]
     late = np.concatenate([np.zeros(0), *(rows.t - each.delay for each, rows in found)])
     times = on_the_cameras_clock(late, testbed, start)
-    values = np.vstack([np.zeros((0, 3)), *(rows.values for _, rows in found)])
-    of = np.repeat(np.arange(len(found)), [len(rows) for _, rows in found])
     order = np.argsort(times, kind="stable")
     order = order[(times[order] >= t[0]) & (times[order] <= t[-1])]
+    return order.astype(np.int64), times[order]
+
+
+def vectors_of(recording: Recording, testbed: Testbed, t: Series1) -> Vectors:
+    """Return the rows of sensors of vectors in order of time; ``t`` are the nodes (s)."""
+    found = observed(recording, testbed)
+    values = np.vstack([np.zeros((0, 3)), *(rows.values for _, rows in found)])
+    of = np.repeat(np.arange(len(found)), [len(rows) for _, rows in found])
+    order, times = vector_moments(recording, testbed, t)
     sensors = [each for each, _ in found]
     return Vectors(
         np.ascontiguousarray(values[order]),
-        *place(t, times[order]),
+        *place(t, times),
         of[order].astype(np.int64),
         rows_of_three([each.vector_N for each in sensors]),
         rows_of_three([each.place for each in sensors]),

@@ -13,6 +13,7 @@ from equipoise.model.units import NS
 
 TURN = r".*(orientation|rotation)/"
 RATE = r".*(angular_velocity|twist/angular)/"
+ACCELERATION = r".*linear_acceleration/"
 # Stamps of a message, then the times at which a recorder put it down; pattern, factor to s.
 STAMPS = (
     (r".*header/stamp/secs?", 1.0, r".*header/stamp/n(ano)?secs?"),
@@ -35,14 +36,16 @@ def ros_map(names: tuple[str, ...], source: str) -> ColumnMap:
     plain = [_plain(name) for name in names]
     attitude, more = _topic(names, plain, f"{TURN}w", "wxyz")
     rate, others = _topic(names, plain, f"{RATE}x", "xyz")
+    acceleration, unused = _topic(names, plain, f"{ACCELERATION}x", "xyz")
     if attitude is None and rate is None:
         wanted = "columns such as 'orientation/x' or 'angular_velocity/x'"
         raise InputError(f"{source}, header", "neither an orientation nor a rate", wanted)
-    left = tuple(f"The columns of '{topic}' were left aside." for topic in more + others)
+    left = tuple(f"The columns of '{topic}' were left aside." for topic in more + others + unused)
     return ColumnMap(
         time=_stamp(names, plain, source),
         quaternion=attitude,
         rate=rate,
+        accelerometer=acceleration,
         notes=left,
     )
 

@@ -1,4 +1,4 @@
-"""Logs that ArduPilot writes on board (dataflash, .bin): attitude and rate of the vehicle.
+"""Logs that ArduPilot writes on board (dataflash, .bin): attitude, rate and acceleration.
 
 Messages (public: ArduPilot's log message reference), of each channel the first that is logged:
 
@@ -6,6 +6,7 @@ Messages (public: ArduPilot's log message reference), of each channel the first 
     AHR2       Q1..Q4 of the filter in reserve
     ATT        Roll, Pitch, Yaw: deg, 3-2-1
     IMU, GYR   GyrX, GyrY, GyrZ: rad/s, I its number; IMU2, IMU3: number 1, 2 of old logs
+    IMU, ACC   AccX, AccY, AccZ: m/s^2, FRD, at rest g upwards; I its number
 
 The reference calls the quaternion a rotation from NED to the vehicle; its numbers are those of the
 turn that takes components in the vehicle's axes, FRD, to NED ones (ArduPilot's own ``Tbn``). Times
@@ -44,12 +45,13 @@ TYPES = {  # letter of a format: type of NumPy, unit
     "e": ("<i4", 0.01), "E": ("<u4", 0.01), "L": ("<i4", 1e-7), "M": ("<u1", 1.0),
     "q": ("<i8", 1.0), "Q": ("<u8", 1.0),
 }  # fmt: skip
-BEST = {"attitude": ("XKQ", "NKQ", "AHR2", "ATT"), "rate": ("IMU", "GYR")}
+BEST = {"attitude": ("XKQ", "NKQ", "AHR2", "ATT"), "rate": ("IMU", "GYR"),
+        "accelerometer": ("IMU", "ACC")}  # fmt: skip
 KNOWN = frozenset(kind for kinds in BEST.values() for kind in kinds)
-NUMBERED = frozenset({"XKQ", "NKQ", "IMU", "GYR"})
-INSTANCE = {"XKQ": "C", "NKQ": "C", "IMU": "I", "GYR": "I"}
+NUMBERED = frozenset({"XKQ", "NKQ", "IMU", "GYR", "ACC"})
+INSTANCE = {"XKQ": "C", "NKQ": "C", "IMU": "I", "GYR": "I", "ACC": "I"}
 QUATERNION, ANGLES = ("Q1", "Q2", "Q3", "Q4"), ("Roll", "Pitch", "Yaw")
-RATE = ("GyrX", "GyrY", "GyrZ")
+RATE, ACCELERATION = ("GyrX", "GyrY", "GyrZ"), ("AccX", "AccY", "AccZ")
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +150,7 @@ def _instance(name: str) -> tuple[str, int]:
 
 
 def _channels(columns: Mapping[str, Series1]) -> dict[str, LogChannel]:
-    """Return attitude and rate of the columns of a message, as far as it has them."""
+    """Return attitude, rate and acceleration of the columns of a message, as far as it has them."""
     us = columns.get("SampleUS", columns.get("TimeUS"))
     if us is None:
         return {}
@@ -159,4 +161,6 @@ def _channels(columns: Mapping[str, Series1]) -> dict[str, LogChannel]:
         found["attitude"] = from_euler321(*(columns[name] * DEG for name in ANGLES))
     if columns.keys() >= set(RATE):
         found["rate"] = np.stack([columns[name] for name in RATE], axis=1)
+    if columns.keys() >= set(ACCELERATION):
+        found["accelerometer"] = np.stack([columns[name] for name in ACCELERATION], axis=1)
     return {name: channel_of(name, us, values) for name, values in found.items()}

@@ -1,7 +1,10 @@
 """Which sources of another program's log are taken: as stated, else the best kind that there is.
 
-A log's format lists its kinds, best first, for attitude and for rate. Two topics of the best kind
-are refused: nobody but the person who recorded them knows which is the platform's.
+A log's format lists its kinds, best first, for attitude, rate and acceleration. Two topics of the
+best kind are refused: nobody but the person who recorded them knows which is the platform's.
+
+Accelerations are taken beside a motion only, of the topic of the rate where it has them, and never
+are a reason to refuse a log: of several topics of the best kind none is taken.
 """
 
 from collections.abc import Mapping, Sequence
@@ -19,6 +22,7 @@ Best = Mapping[str, tuple[str, ...]]  # kinds of sources by channel, the best fi
 Taken = Mapping[str, "Source"]  # by channel
 LISTED = 20  # topics, chosen: what fits a screen
 NEITHER = "no row of attitude or rate"
+BESIDE = "accelerometer"
 LATEST_US = 2**62 // PER_US  # beyond, a count is no time (chosen)
 
 
@@ -73,11 +77,14 @@ def chosen(
     for name in options.topics:
         _check_stated(name, sources, known, file)
     candidates = [s for s in known if _is_candidate(s, options)]
-    found = {channel: _best(channel, candidates, file, options, best) for channel in best}
+    motion = [channel for channel in best if channel != BESIDE]
+    found = {channel: _best(channel, candidates, file, options, best) for channel in motion}
     taken = {channel: source for channel, source in found.items() if source is not None}
     if not taken:
         wanted = f"a log of a motion; read are {', '.join(_kinds(best))}"
         raise InputError(file, f"{NEITHER}; {_listed(sources)}", wanted)
+    acceleration = _beside(candidates, taken.get("rate"), options, best.get(BESIDE, ()))
+    taken |= {} if acceleration is None else {BESIDE: acceleration}
     _check_all_used(taken, file, options)
     _check_instance(taken, known, file, options)
     channels = [source.channels[channel] for channel, source in taken.items()]
@@ -111,6 +118,21 @@ def _best(
     return None
 
 
+def _beside(
+    candidates: Sequence[Source], rate: Source | None, options: ReadOptions, kinds: tuple[str, ...]
+) -> Source | None:
+    """Return the source of accelerations, if there is one that is the platform's."""
+    giving = [each for each in candidates if each.kind in kinds and each.gives(BESIDE)]
+    if rate in giving:
+        return rate
+    first = min((kinds.index(each.kind) for each in giving), default=0)
+    alike = [each for each in giving if each.kind == kinds[first]]
+    if len({each.name for each in alike}) != 1:
+        return None
+    stated = [each for each in alike if each.instance == options.instance]
+    return min(stated or alike, key=lambda source: source.instance)
+
+
 def _instance(found: Sequence[Source], file: str, options: ReadOptions) -> Source:
     """Return the instance that is stated, if there are several; else the lowest."""
     if options.instance is None or len(found) == 1:
@@ -140,7 +162,7 @@ def _check_all_used(taken: Taken, file: str, options: ReadOptions) -> None:
         if name not in used:
             gives = " and ".join(f"{c} from '{source.name}'" for c, source in taken.items())
             found = f"nothing to take from topic '{name}' beside {gives}"
-            raise InputError(f"{file}, --topic", found, "one topic for attitude, one for rate")
+            raise InputError(f"{file}, --topic", found, "one topic for each of these")
 
 
 def _check_instance(taken: Taken, known: Sequence[Source], file: str, options: ReadOptions) -> None:

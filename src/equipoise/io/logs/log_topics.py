@@ -18,7 +18,7 @@ import numpy as np
 from equipoise.io.logs.log_sources import Best, Source
 from equipoise.io.logs.log_table import LogChannel
 
-Values = Mapping[str, tuple[float, ...]]  # attitude (scalar first) or rate, or both
+Values = Mapping[str, tuple[float, ...]]  # by channel: attitude (scalar first), rate ...
 POSE, TURN = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/QuaternionStamped"
 POSE_ESTIMATE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 TRANSFORM, TREE = "geometry_msgs/msg/TransformStamped", "tf2_msgs/msg/TFMessage"
@@ -33,6 +33,7 @@ BEST: Best = {
         OLD_TREE, IMU,
     ),
     "rate": (IMU, ODOMETRY, TWIST, VECTOR),
+    "accelerometer": (IMU,),
 }  # fmt: skip
 TREES = (TREE, OLD_TREE)
 IN_LABORATORY = (TRANSFORM, POSE, POSE_ESTIMATE, ODOMETRY)  # types whose frame is the laboratory

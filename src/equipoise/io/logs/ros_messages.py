@@ -1,8 +1,9 @@
-"""ROS messages to attitude and rate.
+"""ROS messages to attitude, rate and acceleration.
 
 Types (public: docs.ros.org, REP 103 and REP 145): quaternions x, y, z, w turn the child frame
 into the parent; frames are right-handed, the world's Z is up. An inertial unit that has no
-attitude says so by -1 as the first number of the covariance, and so with the rate.
+attitude says so by -1 as the first number of the covariance, and so with rate and acceleration.
+At rest it reports g upwards, m/s^2.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -62,12 +63,19 @@ def _vector(rate: Any) -> Values:
     return {"rate": (float(rate.x), float(rate.y), float(rate.z))}
 
 
+def _acceleration(acceleration: Any) -> Values:
+    row = (float(acceleration.x), float(acceleration.y), float(acceleration.z))
+    return {"accelerometer": row} if any(row) else {}  # all zero: never filled in
+
+
 def _imu(message: Any) -> Values:
     turns = message.orientation_covariance[0] != NONE
     spins = message.angular_velocity_covariance[0] != NONE
+    accelerates = message.linear_acceleration_covariance[0] != NONE
     return {
         **(_quaternion(message.orientation) if turns else {}),
         **(_vector(message.angular_velocity) if spins else {}),
+        **(_acceleration(message.linear_acceleration) if accelerates else {}),
     }
 
 

@@ -1,4 +1,4 @@
-"""Logs of PX4 (ULog): attitude and rate of the vehicle.
+"""Logs of PX4 (ULog): attitude, rate and acceleration of the vehicle.
 
 Topics (public: PX4's message reference), of each channel the first that is logged:
 
@@ -9,6 +9,9 @@ Topics (public: PX4's message reference), of each channel the first that is logg
     vehicle_angular_velocity      xyz[0..2]: rad/s, FRD, filtered
     sensor_combined               gyro_rad[0..2]: rad/s, FRD
     sensor_gyro                   x, y, z: rad/s, FRD
+    vehicle_acceleration          xyz[0..2]: m/s^2, FRD, with gravity: at rest g upwards
+    sensor_combined               accelerometer_m_s2[0..2]: likewise
+    sensor_accel                  x, y, z: likewise
 
 A topic may have several instances, one for each sensor: the lowest that has rows, unless stated.
 
@@ -56,6 +59,11 @@ SOURCES = {
         "vehicle_angular_velocity": tuple(f"xyz[{k}]" for k in range(3)),
         "sensor_combined": tuple(f"gyro_rad[{k}]" for k in range(3)),
         "sensor_gyro": ("x", "y", "z"),
+    },
+    "accelerometer": {
+        "vehicle_acceleration": tuple(f"xyz[{k}]" for k in range(3)),
+        "sensor_combined": tuple(f"accelerometer_m_s2[{k}]" for k in range(3)),
+        "sensor_accel": ("x", "y", "z"),
     },
 }
 BEST = {channel: tuple(topics) for channel, topics in SOURCES.items()}

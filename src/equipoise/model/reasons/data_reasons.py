@@ -28,6 +28,11 @@ class Unobservable(Code):
         "the data do not show where gravity points, so nor the centre of mass; an attitude sensor "
         "does, or a longer record of larger swings",
     )
+    HEADING = (
+        "heading",
+        "the data do not show the heading, a turn about the vertical in which {names} each have a "
+        "part; where gravity points in the body they do show",
+    )
     DISTANCE = (
         "distance",
         "the data do not show the distance of the centre of mass from the centre of rotation",

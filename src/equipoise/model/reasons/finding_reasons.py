@@ -118,6 +118,10 @@ class FindingReason(Code):
         "(they scatter by {scatter:deg .2g} {1} per axis).",
     )
     MORE_OUTLYING_ROWS = "more_outlying_rows", "{0}: {count:.0f} further rows are outlying."
+    OUTLYING_VECTORS = (
+        "outlying_vectors",
+        "{0}: rows that lie off the motion of their neighbours: {count:.0f}.",
+    )
     REPEATED_ROW = (
         "repeated_row",
         "{0}: row {first:.0f} repeats the one before, from {start:.6g} to {end:.6g} s.",

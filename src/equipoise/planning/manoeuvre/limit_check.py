@@ -21,12 +21,14 @@ from equipoise.maths.linalg import inverse_where
 from equipoise.model.arrays import Square, Vector3
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
+from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 from equipoise.planning.manoeuvre.noiseless_record import imagined
 from equipoise.planning.manoeuvre.predicted_information import Known, informed, posed, true_point
 from equipoise.planning.manoeuvre.scenario import Scenario, let_go
 
-S = TypeVar("S", AttitudeSensor, Gyro)
+S = TypeVar("S", AttitudeSensor, Gyro, Accelerometer, SunSensor, Magnetometer)
 DENSE_CAMERA, DENSE_GYRO = 5.0, 10.0  # Hz, chosen: a swing of some 10 s is well sampled
+DENSE_VECTOR = 5.0  # Hz, chosen: as the camera, for it too sees where the platform is turned
 
 
 class Peaks(NamedTuple):
@@ -42,10 +44,14 @@ def for_search(testbed: Testbed) -> Testbed:
     N rows of noise s, while nothing changes, are as good as one row of noise s / sqrt(N).
     """
     camera, gyro = testbed.attitude, testbed.gyro
+    inertial, sun, magnetic = testbed.accelerometer, testbed.sun, testbed.magnetometer
     return replace(
         testbed,
         attitude=camera and thinned(camera, DENSE_CAMERA),
         gyro=gyro and thinned(gyro, DENSE_GYRO),
+        accelerometer=inertial and thinned(inertial, DENSE_VECTOR),
+        sun=sun and thinned(sun, DENSE_VECTOR),
+        magnetometer=magnetic and thinned(magnetic, DENSE_VECTOR),
         masses=tuple(replace(mass, sag_sd=0.0) for mass in testbed.masses),
     )
 

@@ -2,7 +2,7 @@
 
 The motion is that of the one propagator, masses travelling as the bench's do, devices following
 their waves. Rows come at the sensors' own times; masses stop where commanded, the camera stands
-level and the gyro has no bias, as in an estimator's priors.
+level and gyro, accelerometer and magnetometer have no bias, as in an estimator's priors.
 
 Torques other than gravity's and the devices' are zero.
 """
@@ -16,7 +16,7 @@ from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.actuators.square_waves import inputs_along
 from equipoise.actuators.stored_momentum import stored_momentum
 from equipoise.dynamics.propagation import Motion, propagate, rigid_body
-from equipoise.dynamics.timeline import timeline
+from equipoise.dynamics.timeline import SAME, Timeline, place, timeline
 from equipoise.estimation.output_error.problem import longest_step
 from equipoise.maths.attitude import leaning
 from equipoise.model.arrays import Series1
@@ -26,11 +26,14 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
+from equipoise.sensors.vector_sensors import VectorSensor, vector_sensors
 from equipoise.simulation import actuator
-from equipoise.simulation.camera_and_gyro import Sensor
+from equipoise.simulation.camera_and_gyro import Sensor, exact_vectors, sampled_at
 from equipoise.simulation.clock import samples, tick_one
 from equipoise.simulation.devices import inputs_of, started
 from equipoise.simulation.followers import driven, followed
+
+Stamped = tuple[VectorSensor, Series1]  # a sensor and the stamps of its rows, s
 
 SOURCE = "planned manoeuvre"
 
@@ -90,23 +93,44 @@ def known_side(testbed: Testbed, manoeuvre: Manoeuvre) -> Recording:
     return replace(reported, momentum=stored_momentum(reported, testbed))
 
 
+def vector_times(testbed: Testbed, duration: float, start: float) -> list[Stamped]:
+    """Return the stamps (s) of sensors of vectors; no sample is before the start of the motion."""
+    stamps = [(sensor, row_times(sensor, duration)) for sensor in vector_sensors(testbed)]
+    return [(sensor, t[sampled_at(sensor, t).min(axis=1) >= start]) for sensor, t in stamps]
+
+
+def vectors_along(line: Timeline, motion: Motion, stamped: list[Stamped]) -> dict[str, Samples]:
+    """Return the noiseless rows of sensors of vectors, by channel."""
+    found = dict[str, Samples]()
+    for sensor, t in stamped:
+        node, _ = place(line.t, sampled_at(sensor, t) + SAME)
+        vectors = exact_vectors(motion.q[node], motion.rate[node], sensor)
+        found[sensor.channel] = Samples(t, vectors)
+    return found
+
+
 def imagined(testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre) -> Imagined:
     """Return the noiseless recording of a manoeuvre by a platform with this body."""
     reported = known_side(testbed, manoeuvre)
     camera, gyro = testbed.attitude, testbed.gyro
     t_q, t_w = (row_times(sensor, manoeuvre.duration) for sensor in (camera, gyro))
+    moments = measured_at(t_q, camera), measured_at(t_w, gyro)
+    stamped = vector_times(testbed, manoeuvre.duration, float(np.concatenate(moments).min()))
+    instants = [sampled_at(sensor, t).ravel() for sensor, t in stamped]
     fastest = float(np.linalg.norm(manoeuvre.rate))
     line = timeline(
-        measured_at(t_q, camera), measured_at(t_w, gyro), reported.masses, len(testbed.masses),
+        moments[0], np.concatenate([moments[1], *instants]), reported.masses, len(testbed.masses),
         longest_step(testbed, fastest, len(t_q) + len(t_w)), reported.momentum,
     )  # fmt: skip
     maps = mass_maps(testbed.masses)
     rigid = rigid_body(body, testbed.gravity)
     q0 = leaning(testbed.up, manoeuvre.low_side, manoeuvre.tilt)
     motion = propagate(rigid, maps, line, q0, manoeuvre.rate)
+    turning = motion.rate[line.rate_node[: len(t_w)]]
     recording = replace(
         reported,
         attitude=Samples(t_q, motion.q[line.attitude_node]) if camera else None,
-        rate=Samples(t_w, motion.rate[line.rate_node]) if gyro else None,
+        rate=Samples(t_w, turning) if gyro else None,
+        **vectors_along(line, motion, stamped),
     )
     return Imagined(recording, motion, line.t)

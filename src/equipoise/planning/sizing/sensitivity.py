@@ -12,13 +12,19 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass
+from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 from equipoise.planning.sizing.budget import budget_of
 from equipoise.planning.sizing.case import Case
+
+VectorSensor = Accelerometer | SunSensor | Magnetometer
+Sensor = AttitudeSensor | Gyro | VectorSensor
 
 HALF = 0.5
 MASS_LENGTHS = {"steps": "resolution", "stops": "accuracy", "backlash": "backlash"}  # by line
 BETTER_MASSES = {"steps": "steps half as long", "stops": "masses that stop twice as accurately",
                  "backlash": "half the backlash"}  # fmt: skip
+VECTOR_SENSORS = {"accelerometer": "accelerometer", "sun": "sun sensor",
+                  "magnetometer": "magnetometer"}  # fmt: skip
 GYRO = Gyro(100.0, np.radians(0.05), np.radians(0.1))  # chosen: 0.005 deg/s/rtHz, a good MEMS gyro
 
 
@@ -68,7 +74,7 @@ def sensor_changes(case: Case) -> Iterator[Change]:
     testbed = case.testbed
     camera, gyro = testbed.attitude, testbed.gyro
 
-    def observed_by(**sensors: AttitudeSensor | Gyro) -> Case:
+    def observed_by(**sensors: Sensor) -> Case:
         return replace(case, testbed=replace(testbed, **sensors))
 
     if camera is not None:
@@ -82,6 +88,11 @@ def sensor_changes(case: Case) -> Iterator[Change]:
     else:
         quieter = replace(gyro, noise=HALF * gyro.noise)
         yield Change("half the gyro's noise", "measurement", observed_by(gyro=quieter))
+    for name, called in VECTOR_SENSORS.items():
+        sensor: VectorSensor | None = getattr(testbed, name)
+        if sensor is not None:
+            finer = replace(sensor, noise=HALF * sensor.noise)
+            yield Change(f"half the {called}'s noise", "measurement", observed_by(**{name: finer}))
     yield Change(
         "records twice as long",
         "measurement",

@@ -9,12 +9,18 @@ have is as noisy as its rows. A mass that flickers between two steps of its log 
 from dataclasses import replace
 
 from equipoise.assessment.record_checks.exposure_averaging import row_averaging, with_window
-from equipoise.assessment.record_checks.flagged_rows import OddRows, odd_attitudes, odd_rates
+from equipoise.assessment.record_checks.flagged_rows import (
+    OddRows,
+    odd_attitudes,
+    odd_rates,
+    odd_vectors,
+)
 from equipoise.assessment.record_checks.mass_flicker import without_flicker
 from equipoise.assessment.record_checks.sensor_noise import shown_camera, shown_gyro
 from equipoise.model.arrays import Bools
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.vector_sensors import CHANNELS
 
 FEWEST = 20  # rows, chosen: among fewer nothing stands out
 MOST = 0.2  # chosen: with a larger share of odd rows, it is the rest that is odd
@@ -25,6 +31,16 @@ def kept(channel: Samples, mask: Bools) -> Samples:
     if mask.mean() > MOST:
         return channel
     return channel.where(~mask)
+
+
+def sound_vectors(recording: Recording) -> dict[str, Samples]:
+    """Return the rows of sensors of vectors, by channel, without those off their neighbours."""
+    found = dict[str, Samples]()
+    for name in CHANNELS:
+        channel: Samples | None = getattr(recording, name)
+        if channel is not None and len(channel) >= FEWEST:
+            found[name] = kept(channel, odd_vectors(channel))
+    return found
 
 
 def sound(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
@@ -43,5 +59,5 @@ def sound(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
     if reported is not None and camera is not None and camera.averaging == 0:
         camera = with_window(camera, reported)
     observed = replace(testbed, attitude=camera, gyro=gyro)
-    masses = without_flicker(recording, testbed)
-    return replace(recording, attitude=attitude, rate=rate, masses=masses), observed
+    masses, vectors = without_flicker(recording, testbed), sound_vectors(recording)
+    return replace(recording, attitude=attitude, rate=rate, masses=masses, **vectors), observed
