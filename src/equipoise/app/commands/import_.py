@@ -76,6 +76,7 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written:
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.runs.importing import axis_up, by_motion, map_to_start_from
     from equipoise.app.views.import_views import import_blocks
+    from equipoise.assessment.plausibility.unread_inputs import unread_findings
     from equipoise.io.files.atomic_file import write_whole
     from equipoise.io.recording.frame_check import check_frame
     from equipoise.io.recording.recording_file import recording_from
@@ -96,7 +97,8 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", written:
     columns = found.known if chosen is None else found.columns(chosen, axis_up(bed))
     assert columns is not None  # one of the two is there
     recording = recording_from(found.table, columns, written.bad_rows)
-    notes = (*by_fit, *recording.notes, *recording.gaps)
+    driven = (each.sentence for each in unread_findings(recording.unread))
+    notes = (*by_fit, *recording.notes, *recording.gaps, *driven)
     show(import_blocks(found.ranked, chosen, notes, header))
     if bed is not None:
         check_frame(recording, bed)
