@@ -220,8 +220,8 @@ class FindingReason(Code):
     NO_BODY = (
         "no_body",
         "the testbed's inertia does not fit its mass of {mass:.3g} kg: that would lie "
-        "{radius:.2g} m from the pivot (root mean square). Is a unit of platform.inertia_kg_m2 or "
-        "platform.mass_kg wrong?",
+        "{radius:.2g} m from the pivot (root mean square), where {low:.2g} to {high:.2g} m are "
+        "possible. Is a unit of platform.inertia_kg_m2 or platform.mass_kg wrong?",
     )
     COM_ABOVE = (
         "com_above",
