@@ -10,7 +10,6 @@ powers of ten.
 
 import numpy as np
 
-from equipoise.model.arrays import Matrix3
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
@@ -29,9 +28,9 @@ def body_findings(testbed: Testbed | None) -> list[Finding]:
     return [*_gyration(testbed), *_above(testbed)]
 
 
-def radius_of(inertia: Matrix3, mass: float) -> float:
-    """Return k (m) of an inertia (kg m^2) and a mass (kg); zero where tr J is not positive."""
-    return float(np.sqrt(max(np.trace(inertia), 0.0) / (2 * mass)))
+def radius_of(trace: float, mass: float) -> float:
+    """Return k (m) by tr J (kg m^2) and a mass (kg); zero where tr J is not positive."""
+    return float(np.sqrt(max(trace, 0.0) / (2 * mass)))
 
 
 def possible_radii(testbed: Testbed) -> tuple[float, float]:
@@ -44,7 +43,7 @@ def possible_radii(testbed: Testbed) -> tuple[float, float]:
 
 def _gyration(testbed: Testbed) -> list[Finding]:
     mass, (low, high) = testbed.body.mass, possible_radii(testbed)
-    radius = radius_of(testbed.body.inertia_P, mass)
+    radius = radius_of(float(np.trace(testbed.body.inertia_P)), mass)
     if low <= radius <= high:
         return []
     numbers = {"mass": mass, "radius": radius, "low": low, "high": high}

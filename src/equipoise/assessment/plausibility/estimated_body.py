@@ -44,12 +44,13 @@ def _gyration(estimate: Estimate, testbed: Testbed) -> tuple[Reason, ...]:
     if not estimate.sees(INERTIA):
         return ()
     mass, (low, high) = testbed.body.mass, possible_radii(testbed)
-    radius = radius_of(estimate.inertia_P, mass)
-    sd = float(np.sqrt(estimate.covariance_of(moments).sum())) / (4 * mass * max(radius, low))
-    if not (radius + SURE * sd < low or radius - SURE * sd > high):
+    trace = float(np.trace(estimate.inertia_P))
+    sd = float(np.sqrt(estimate.covariance_of(moments).sum()))
+    least, radius, most = (radius_of(trace + k * sd, mass) for k in (-SURE, 0.0, SURE))
+    if most >= low and least <= high:
         return ()
-    numbers = {"mass": mass, "radius": radius, "sd": sd, "low": low, "high": high}
-    return one_reason(Why.INERTIA_OF_NO_BODY, **numbers)
+    numbers = {"mass": mass, "radius": radius, "sd": (most - least) / (2 * SURE)}
+    return one_reason(Why.INERTIA_OF_NO_BODY, **numbers, low=low, high=high)
 
 
 def _above(estimate: Estimate, recording: Recording, testbed: Testbed) -> tuple[Reason, ...]:
