@@ -162,6 +162,16 @@ ASSESSMENT = _of(
      "assessment/record_checks/test_mass_flicker.py"),
     ("record_checks/mass_flicker.py", "(t[back] - t[there] < BACK)", "True",
      "assessment/record_checks/test_mass_flicker.py"),
+    ("plausibility/unused_channels.py", '"problem" if recording.attitude is None',
+     '"content" if recording.attitude is None', "assessment/plausibility/test_unused_channels.py"),
+    ("plausibility/estimated_body.py", "if most >= low and least <= high",
+     "if most >= low or least <= high", "assessment/plausibility/test_estimated_body.py"
+     "::test_an_inertia_that_no_body_has_is_named"),
+    ("plausibility/estimated_body.py", "if steadied or growth", "if growth",
+     "assessment/plausibility/test_estimated_body.py"
+     "::test_a_top_that_its_spin_holds_up_may_swing"),
+    ("plausibility/swings_through_level.py", "if scatter < SHOWS * noise or", "if",
+     "assessment/plausibility/test_estimated_body.py::test_noise_at_rest_is_no_swing"),
     ("metrics/gravity_torque.py", "return -to_matrix(q)[:, 2, :]", "return to_matrix(q)[:, 2, :]",
      "assessment/metrics/test_gravity_torque.py"),
     ("metrics/motion_energy.py", "0.5 * np.sum(w * momentum, axis=1)",
@@ -335,6 +345,8 @@ STUDY = _of(
 
 IO = _of(
     "io",
+    ("columns/unread_inputs.py", "if high > low else None", "if high >= low else None",
+     "assessment/plausibility/test_unread_inputs.py"),
     ("recording/clock.py", "_longest_together(back) > max(", "_longest_together(back) < -max(",
      "io/recording/test_bad_rows.py"),
     ("formats/clock_units.py", "round((t - whole) * 1e9)", "round((t + whole) * 1e9)",

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.implausible_reasons import ImplausibleReason
 from equipoise.model.reasons.reason import Number, Reason, Reasoned, one_reason
 
 
@@ -85,6 +86,8 @@ NOT_TRUSTWORTHY = (
     Why.CROSS_CHECKS_DISAGREE,
     Why.SENSOR_IMPLAUSIBLE,
     Why.BUDGET_SPENT,
+    ImplausibleReason.INERTIA_OF_NO_BODY,
+    ImplausibleReason.SWINGS_WITH_COM_ABOVE,
 )
 
 

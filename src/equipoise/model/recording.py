@@ -17,6 +17,7 @@ from equipoise.model.devices import Device, at_start, recorded_name
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.from_memory import FromMemory
 from equipoise.model.presentation import Plotted
+from equipoise.model.unread_input import UnreadInput
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -85,6 +86,7 @@ class Recording(Plotted, FromMemory):
     sha256: str = ""  # of the file's bytes; empty when it never was a file
     notes: tuple[str, ...] = ()  # what reading it had to set right
     gaps: tuple[str, ...] = ()  # where reading it found a sensor silent
+    unread: tuple[UnreadInput, ...] = ()  # columns of its file that may say what drove it
     free_from: float | None = None  # s, when the platform was let go, where the file states it
 
     @property

@@ -65,6 +65,7 @@ def convert(
     from equipoise.app.arguments.inputs import recording_of
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.blocks import items
+    from equipoise.assessment.plausibility.unread_inputs import unread_findings
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.format_registry import format_to_write
     from equipoise.io.recording.recording_file import write_recording
@@ -79,7 +80,8 @@ def convert(
     else:
         recording = recording_of(file, reading)
     write_recording(recording, out)
-    show(items((*recording.notes, *recording.gaps), "quiet"))
+    driven = (each.sentence for each in unread_findings(recording.unread))
+    show(items((*recording.notes, *recording.gaps, *driven), "quiet"))
     show_paths([out])
     return 0
 

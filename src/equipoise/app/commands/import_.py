@@ -85,6 +85,7 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", wanted: 
     """Show the readings, and read the table by the one that is taken."""
     from equipoise.app.runs.importing import axis_up, by_motion, check_vertical
     from equipoise.app.views.import_views import TableRead, unchecked
+    from equipoise.assessment.plausibility.unread_inputs import unread_findings
     from equipoise.io.recording.frame_check import check_frame
     from equipoise.io.recording.recording_file import recording_from
 
@@ -100,7 +101,9 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", wanted: 
     columns = found.known if chosen is None else found.columns(chosen, axis_up(bed))
     assert columns is not None  # one of the two is there
     recording = recording_from(found.table, columns, wanted.bad_rows)
-    notes = (*by_fit, *recording.notes, *recording.gaps, *unchecked(chosen, recording, bed))
+    driven = (each.sentence for each in unread_findings(recording.unread))
+    beside = (*unchecked(chosen, recording, bed), *driven)
+    notes = (*by_fit, *recording.notes, *recording.gaps, *beside)
     left = found.left_aside(columns)
     wanted.show(TableRead(found.source, found.ranked, chosen, header, notes, left))
     if chosen is not None:

@@ -8,6 +8,8 @@ from equipoise.assessment.plausibility.body import body_findings
 from equipoise.assessment.plausibility.gyro_range import saturation_findings
 from equipoise.assessment.plausibility.rotation import rotation_findings
 from equipoise.assessment.plausibility.sampling import sampling_findings
+from equipoise.assessment.plausibility.unread_inputs import unread_findings
+from equipoise.assessment.plausibility.unused_channels import unused_findings
 from equipoise.assessment.record_checks.attitude_noise import noise_findings
 from equipoise.assessment.record_checks.clock_offset import (
     ClockOffset,
@@ -36,6 +38,8 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
     offset = _offset(recording)
     return (
         *content_findings(recording),
+        *unused_findings(recording, testbed),
+        *unread_findings(recording.unread),
         *unknown_name_findings("mass", recording.mass_names, masses),
         *move_findings(recording),
         *flicker_findings(recording, testbed),

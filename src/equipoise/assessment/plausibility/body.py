@@ -3,8 +3,9 @@
     k = sqrt(tr J / 2 m)          root mean square distance of the mass from the pivot
 
 A platform of a bearing is some centimetres to metres large, and as dense as machines are: m / k^3
-is between that of a wide frame and that of lead. Inertias in kg cm^2 or g m^2, or a mass in g, put
-it off by many powers of ten.
+is between that of a wide frame and that of lead. Nor is tr J / 2 less than what its sliding masses
+make of it, sum m_i |rho_i|^2. Inertias in kg cm^2 or g m^2, or a mass in g, put it off by many
+powers of ten.
 """
 
 import numpy as np
@@ -16,6 +17,7 @@ from equipoise.model.testbed import Testbed
 
 SMALLEST, LARGEST = 0.005, 10.0  # m (chosen)
 LIGHT, DENSE = 1.0, 1e6  # kg/m^3, of m / k^3 (chosen)
+MOSTLY = 0.8  # of the masses' own distance, chosen: they are stated to some percent
 SURE = 2.0  # sd, by which a centre of mass must be above to be called so (chosen)
 
 
@@ -26,12 +28,26 @@ def body_findings(testbed: Testbed | None) -> list[Finding]:
     return [*_gyration(testbed), *_above(testbed)]
 
 
+def radius_of(trace: float, mass: float) -> float:
+    """Return k (m) by tr J (kg m^2) and a mass (kg); zero where tr J is not positive."""
+    return float(np.sqrt(max(trace, 0.0) / (2 * mass)))
+
+
+def possible_radii(testbed: Testbed) -> tuple[float, float]:
+    """Return the least and the greatest k (m) that a platform of a testbed's mass can have."""
+    mass = testbed.body.mass
+    carried = sum(each.mass * float(each.home @ each.home) for each in testbed.masses)
+    least = max(SMALLEST, (mass / DENSE) ** (1 / 3), MOSTLY * (carried / mass) ** 0.5)
+    return least, min(LARGEST, (mass / LIGHT) ** (1 / 3))
+
+
 def _gyration(testbed: Testbed) -> list[Finding]:
-    inertia, mass = testbed.body.inertia_P, testbed.body.mass
-    radius = float(np.sqrt(np.trace(inertia) / (2 * mass)))
-    if SMALLEST <= radius <= LARGEST and LIGHT <= mass / radius**3 <= DENSE:
+    mass, (low, high) = testbed.body.mass, possible_radii(testbed)
+    radius = radius_of(float(np.trace(testbed.body.inertia_P)), mass)
+    if low <= radius <= high:
         return []
-    return [Finding("wrong", one_reason(Why.NO_BODY, mass=mass, radius=radius))]
+    numbers = {"mass": mass, "radius": radius, "low": low, "high": high}
+    return [Finding("wrong", one_reason(Why.NO_BODY, **numbers))]
 
 
 def _above(testbed: Testbed) -> list[Finding]:

@@ -10,6 +10,7 @@ from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.read_options import BAD_ROWS
 from equipoise.io.columns.row_faults import FaultyRows, without_faulty
 from equipoise.io.columns.table import Table
+from equipoise.io.columns.unread_inputs import unread_inputs
 from equipoise.io.recording.attitude_columns import (
     lengths,
     of_unit_length,
@@ -92,6 +93,7 @@ def rows_of(table: Table, columns: ColumnMap, bad_rows: float) -> Recording:
         free_from=columns.free_from,
         notes=(*table.notes, *columns.notes, *left_out, *clock.notes, *from_zero, *notes),
         gaps=tuple(note for c in sensors if c is not None for note in gap_notes(c)),
+        unread=unread_inputs(table, columns),
     )
 
 

@@ -33,6 +33,27 @@ class FindingReason(Code):
     )
     SET_RIGHT = "set_right", "{0}"  # by reading the file, which says what it was
 
+    ROWS_UNUSED = (
+        "rows_unused",
+        "{0}: {rows:.0f} rows are not used, since the testbed has no {1}.",
+    )
+    INPUT_UNREAD = (
+        "input_unread",
+        "the column '{0}' goes from {low:.4g} to {high:.4g}, and nothing reads it: if that acts on "
+        "the platform, no swing is free.",
+    )
+    MORE_INPUTS_UNREAD = (
+        "more_inputs_unread",
+        "{count:.0f} further columns of this kind ({0}) change.",
+    )
+    READ_DEVICE = "read_device", "In a column map: {0}; in the testbed: {1}."
+    READ_TRIAD = "read_triad", "In a column map: [{0}], three columns in body axes."
+    READ_REPORTS = (
+        "read_reports",
+        "A command is not what acts: read what its device reports ([[device]], [[mass]]), or take "
+        "a part without commands (--from-s, --to-s).",
+    )
+
     # Masses and motion
     NO_POSITIONS = "no_positions", "No mass positions were recorded: the scale stays open."
     NO_MASS_MOVED = "no_mass_moved", "No mass moved: the scale stays open."
@@ -203,8 +224,8 @@ class FindingReason(Code):
     NO_BODY = (
         "no_body",
         "the testbed's inertia does not fit its mass of {mass:.3g} kg: that would lie "
-        "{radius:.2g} m from the pivot (root mean square). Is a unit of platform.inertia_kg_m2 or "
-        "platform.mass_kg wrong?",
+        "{radius:.2g} m from the pivot (root mean square), where {low:.2g} to {high:.2g} m are "
+        "possible. Is a unit of platform.inertia_kg_m2 or platform.mass_kg wrong?",
     )
     COM_ABOVE = (
         "com_above",

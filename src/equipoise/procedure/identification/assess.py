@@ -28,6 +28,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from equipoise.assessment.metrics.torque_range import InRange, Pull, torque_in_range
+from equipoise.assessment.plausibility.estimated_body import with_plausibility
 from equipoise.dynamics.sag_trim import SAG_TERMS
 from equipoise.estimation.model_selection import reference_fit
 from equipoise.estimation.output_error.fit_estimate import spread_of
@@ -133,7 +134,8 @@ def fit_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Fi
     unbalanced = replace(testbed, com_sd=np.full(3, UNKNOWN_COM))
     reference_fit.check_sensors(recording, unbalanced)
     model = reference_fit.surveyed(recording, unbalanced, params)
-    estimate = reference_fit.as_estimate(model, recording, params)
+    found = reference_fit.as_estimate(model, recording, params)
+    estimate = with_plausibility(found, recording, testbed)
     return estimate, spread_of(model.fitted, model.coloured)
 
 

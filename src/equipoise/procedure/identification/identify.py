@@ -8,6 +8,7 @@ method can be requested instead.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from equipoise.assessment.plausibility.estimated_body import with_plausibility
 from equipoise.estimation.method_contract import Options, estimated, heeded
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.search_budget import UNLIMITED, Budget
@@ -57,6 +58,7 @@ def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -
         requested = (
             options.requested if name == chosen[-1] else heeded(method.card, options.requested)
         )
-        estimate = estimated(method, recording, testbed, requested)
+        found = estimated(method, recording, testbed, requested)
+        estimate = with_plausibility(found, recording, testbed)
         if estimate.parameters or name == chosen[-1]:
             yield estimate_step(recording.span[1], estimate)

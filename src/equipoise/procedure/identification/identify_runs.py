@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Generator, Sequence
 from dataclasses import replace
 
+from equipoise.assessment.plausibility.estimated_body import with_plausibility
 from equipoise.estimation.joint.joint_estimate import Run, estimate_jointly
 from equipoise.estimation.methods.trajectory import params_of
 from equipoise.estimation.model_selection.reference_fit import modelled
@@ -35,15 +36,17 @@ def identify_runs(
     params, runs = params_of(testbed, options.requested), list[Run]()
     for name, recording in zip(names_of(recordings), recordings, strict=True):
         of_this = replace(params, budget=params.budget.renewed())
-        model, estimate = modelled(*sound(recording, testbed), of_this)
+        rows, platform = sound(recording, testbed)
+        model, found = modelled(rows, platform, of_this)
+        estimate = with_plausibility(found, rows, platform)
         runs.append(Run(name, recording.sha256, model, estimate))
         reasons = (Reason(StepReason.RUN_ESTIMATED, (name,)), *estimate.outcome.reasons)
         yield Step("estimate", recording.span[1], reasons, recording, estimate)
-    found = estimate_jointly(runs, testbed, params.budget.renewed())
+    joint = estimate_jointly(runs, testbed, params.budget.renewed())
     end = sum(recording.span[1] - recording.span[0] for recording in recordings)
-    reasons, kind = found.verdict.reasons, "verify" if found.verdict.passed else "stop"
-    yield Step(kind, end, reasons, estimate=found.estimate, verdict=found.verdict)
-    return found
+    reasons, kind = joint.verdict.reasons, "verify" if joint.verdict.passed else "stop"
+    yield Step(kind, end, reasons, estimate=joint.estimate, verdict=joint.verdict)
+    return joint
 
 
 def check_method(name: str) -> None:

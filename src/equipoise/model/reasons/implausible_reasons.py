@@ -1,0 +1,22 @@
+"""Why an estimate is none of the platform that was recorded, however well it fits the rows."""
+
+from equipoise.model.reasons.reason import Code
+
+
+class ImplausibleReason(Code):
+    """One thing that no platform can have, with its sentence."""
+
+    INERTIA_OF_NO_BODY = (
+        "inertia_of_no_body",
+        "But {mass:.3g} kg with the inertia found would lie {radius:.2g} m (sd {sd:.1g} m) from "
+        "the pivot (root mean square), where {low:.2g} to {high:.2g} m are possible. Check "
+        "platform.mass_kg, the unit of the time, and what is stated of the masses; do not trust "
+        "the numbers.",
+    )
+    SWINGS_WITH_COM_ABOVE = (
+        "swings_with_com_above",
+        "But the centre of mass found is above the pivot ({sds:.2g} sd), where a platform falls "
+        "over within some {seconds:.2g} s; from {start:.4g} to {end:.4g} s it swings through level "
+        "{count:.0f} times. Check the attitude's direction, which axis is up in laboratory and "
+        "body, and platform.mass_kg; do not trust the numbers.",
+    )
