@@ -188,3 +188,20 @@ def test_a_map_of_ticks_reads_the_table_again(equipoise, tmp_path):
     assert equipoise("import", path, "--write-map", "map.toml").code == 0
     assert 'unit = "100 ns"' in (tmp_path / "map.toml").read_text()
     assert equipoise("inspect", path, "--columns", "map.toml").code == 0
+
+
+def test_a_column_of_a_wheel_is_named_where_it_is_left_behind(equipoise, tmp_path, recording):
+    """What is written has no such column, so that nothing could say so later."""
+    raw, out = tmp_path / "raw.csv", tmp_path / "run.csv"
+    table(raw, recording)
+    header, *rows = raw.read_text().splitlines()
+    more = [f"{row},{20 + k % 7}" for k, row in enumerate(rows)]
+    raw.write_text("\n".join([f"{header},wheel x rpm", *more]) + "\n")
+    done = equipoise("import", str(raw), "--out", str(out))
+    assert done.code == 0
+    said = " ".join(done.out.split())
+    assert "'wheel x rpm' goes from 20 to 26" in said
+    assert "[[reaction_wheel]]" in said
+    again = equipoise("convert", str(out), str(tmp_path / "run.parquet"))
+    assert again.code == 0
+    assert "reaction_wheel" not in again.out

@@ -13,7 +13,7 @@ from equipoise.assessment.hypotheses.number_table import NumberTable
 from equipoise.assessment.hypotheses.ranking import Ranked, TableReading, ranked
 from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.column_map_file import MapFile, column_map_of
-from equipoise.io.columns.dialects import detect
+from equipoise.io.dialects.dialects import detect
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.sentinels import sentinel_rows
 from equipoise.io.columns.table import Numbers, Table

@@ -1,1 +1,1 @@
-"""Columns of foreign tables: maps and dialects."""
+"""Columns of foreign tables, and the maps that say what they hold."""

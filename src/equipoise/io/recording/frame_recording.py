@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.dated_times import DATED, seconds_since, start_note, zero_of
-from equipoise.io.columns.dialects import detect
+from equipoise.io.dialects.dialects import detect
 from equipoise.io.columns.native_columns import TIME
 from equipoise.io.columns.shown_columns import is_shown, shown_map
 from equipoise.io.columns.table import Numbers, Table, finite

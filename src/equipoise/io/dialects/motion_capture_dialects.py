@@ -17,7 +17,7 @@
 
 import re
 
-from equipoise.io.columns.body_choice import chosen_body, others_left
+from equipoise.io.dialects.body_choice import chosen_body, others_left
 from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.toml.units import factor
 from equipoise.model.errors import InputError

@@ -6,10 +6,10 @@ What a program writes, and where that is described, is said where its map is mad
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from equipoise.io.columns.body_choice import no_body
+from equipoise.io.dialects.body_choice import no_body
 from equipoise.io.columns.column_map import ColumnMap
-from equipoise.io.columns.euler_dialect import euler_map, is_euler
-from equipoise.io.columns.motion_capture_dialects import (
+from equipoise.io.dialects.euler_dialect import euler_map, is_euler
+from equipoise.io.dialects.motion_capture_dialects import (
     is_optitrack,
     is_qualisys,
     is_vicon,
@@ -18,8 +18,8 @@ from equipoise.io.columns.motion_capture_dialects import (
     vicon_map,
 )
 from equipoise.io.columns.native_columns import ATTITUDE, RATE, is_native, native_map
-from equipoise.io.columns.phyphox_dialect import is_phyphox, phyphox_map
-from equipoise.io.columns.ros_dialect import is_ros, ros_map
+from equipoise.io.dialects.phyphox_dialect import is_phyphox, phyphox_map
+from equipoise.io.dialects.ros_dialect import is_ros, ros_map
 from equipoise.model.errors import InputError, nearest
 
 Names = tuple[str, ...]
