@@ -20,7 +20,7 @@ from equipoise.io.columns.read_options import BAD_ROWS, ReadOptions
 from equipoise.io.formats.long_text import LONG
 from equipoise.io.recording.recording_file import read_recording
 from tests.docs.test_examples import ROOT, Block, blocks, commands, run_python
-from tests.io.columns.test_motion_capture import motive
+from tests.io.dialects.test_motion_capture import motive
 from tests.support.flight_logs import flight
 from tests.support.odd_table import AT_REST, COUNTS, WIRED, odd_table
 from tests.support.sample_logs import IMU, bag_2_mcap_file

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from equipoise.io.columns.column_map_file import read_column_map
-from equipoise.io.dialects.dialects import DIALECTS
 from equipoise.io.columns.read_options import AS_IT_IS, ReadOptions
+from equipoise.io.dialects.dialects import DIALECTS
 from equipoise.io.recording.recording_file import read_recording, read_table
 from equipoise.io.toml.units import KINDS
 from equipoise.model.errors import InputError

@@ -13,11 +13,11 @@ from equipoise.assessment.hypotheses.number_table import NumberTable
 from equipoise.assessment.hypotheses.ranking import Ranked, TableReading, ranked
 from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.column_map_file import MapFile, column_map_of
-from equipoise.io.dialects.dialects import detect
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.sentinels import sentinel_rows
 from equipoise.io.columns.table import Numbers, Table
 from equipoise.io.columns.text_times import FORMATS, with_times_as_numbers
+from equipoise.io.dialects.dialects import detect
 from equipoise.io.recording.channels import read_time
 from equipoise.io.recording.recording_file import read_table, recording_from
 from equipoise.io.toml.units import KINDS

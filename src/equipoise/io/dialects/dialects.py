@@ -6,8 +6,9 @@ What a program writes, and where that is described, is said where its map is mad
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from equipoise.io.dialects.body_choice import no_body
 from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.native_columns import ATTITUDE, RATE, is_native, native_map
+from equipoise.io.dialects.body_choice import no_body
 from equipoise.io.dialects.euler_dialect import euler_map, is_euler
 from equipoise.io.dialects.motion_capture_dialects import (
     is_optitrack,
@@ -17,7 +18,6 @@ from equipoise.io.dialects.motion_capture_dialects import (
     qualisys_map,
     vicon_map,
 )
-from equipoise.io.columns.native_columns import ATTITUDE, RATE, is_native, native_map
 from equipoise.io.dialects.phyphox_dialect import is_phyphox, phyphox_map
 from equipoise.io.dialects.ros_dialect import is_ros, ros_map
 from equipoise.model.errors import InputError, nearest

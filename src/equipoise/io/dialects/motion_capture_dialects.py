@@ -17,8 +17,8 @@
 
 import re
 
-from equipoise.io.dialects.body_choice import chosen_body, others_left
 from equipoise.io.columns.column_map import ColumnMap, Columns
+from equipoise.io.dialects.body_choice import chosen_body, others_left
 from equipoise.io.toml.units import factor
 from equipoise.model.errors import InputError
 

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.dated_times import DATED, seconds_since, start_note, zero_of
-from equipoise.io.dialects.dialects import detect
 from equipoise.io.columns.native_columns import TIME
 from equipoise.io.columns.shown_columns import is_shown, shown_map
 from equipoise.io.columns.table import Numbers, Table, finite
 from equipoise.io.columns.text_times import with_times_as_numbers
+from equipoise.io.dialects.dialects import detect
 from equipoise.io.recording.build_recording import recording_of
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap
-from equipoise.io.dialects.dialects import detect, dialect_map
 from equipoise.io.columns.read_options import AS_IT_IS, ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.columns.text_times import with_times_as_numbers
+from equipoise.io.dialects.dialects import detect, dialect_map
 from equipoise.io.recording.build_recording import recording_of
 from equipoise.io.recording.format_registry import content_of, format_of, format_to_write
 from equipoise.model.errors import InputError, nearest
