@@ -12,7 +12,7 @@ from tests.support.recordings.recorded_motion import swinging, turning
 NAMES = ("ax", "ay", "az")
 
 
-def force(motion, sign: float = 1.0) -> NumberTable:
+def measured(motion, sign: float = 1.0) -> NumberTable:
     return NumberTable(NAMES, sign * 1000.0 * np.stack([*accelerations(motion).values()], axis=1))
 
 
@@ -21,7 +21,7 @@ def force(motion, sign: float = 1.0) -> NumberTable:
 @pytest.mark.parametrize("angle", [0.0, 5.0, 20.0, 45.0])
 def test_the_tilt_is_that_of_the_laboratory(made, sign, angle) -> None:
     motion = made()
-    found = vertical_of(force(motion, sign), tilted(motion, angle), None, "z")
+    found = vertical_of(measured(motion, sign), tilted(motion, angle), None, "z")
     assert found is not None
     assert np.degrees(found.tilt) == pytest.approx(angle, abs=0.1)
     assert found.is_off == (angle > 15.0)
@@ -37,7 +37,7 @@ def test_a_sensor_with_other_axes_says_nothing() -> None:
     """Its z is level: what it feels turns about with the platform."""
     motion = turning()
     turn = Rotation.from_euler("y", 90.0, degrees=True)
-    table = NumberTable(NAMES, turn.apply(force(motion).values))
+    table = NumberTable(NAMES, turn.apply(measured(motion).values))
     assert vertical_of(table, motion.q, None, "z") is None
 
 

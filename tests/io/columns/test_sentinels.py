@@ -17,7 +17,7 @@ def column(mark: float, rows=ROWS, readings=READINGS):
 
 
 @pytest.mark.parametrize("mark", [-999.0, 999.0, -9999.0, 99999.0, -999.9, 1e30, -3.4028235e38])
-def test_a_number_in_use_that_recurs_well_outside_is_none(mark) -> None:
+def test_a_number_in_use_that_recurs_beyond_the_others_is_none(mark) -> None:
     assert sentinel_rows(column(mark)).tolist() == ROWS
 
 

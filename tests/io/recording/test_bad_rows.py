@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.formats.mat_table import mat_bytes
 from equipoise.io.formats.parquet_table import parquet_bytes, parquet_of_cells
@@ -157,3 +158,15 @@ def test_of_two_records_in_one_file_none_is_spliced_from_both(tmp_path) -> None:
     body = lines(np.column_stack([np.append(T[:45], T[:55]), Q]))
     with pytest.raises(InputError, match=r"line 47: found time going backwards.* cut the file"):
         read(tmp_path, body, ROS, bad_rows=0.6)
+
+
+def test_a_factor_beyond_any_number_is_refused(tmp_path) -> None:
+    """A map of such a factor made a recording of infinite rates."""
+    (tmp_path / "m.toml").write_text(
+        'time = {column = "time_s", unit = "s"}\n[rate]\nunit = "rpm"\nfactor = 1e308\n'
+        'columns = ["omega_x_rad_s", "omega_y_rad_s", "big"]\n'
+    )
+    body = [f"{line},1e9" for line in lines(GOOD)]
+    columns = read_column_map(tmp_path / "m.toml")
+    with pytest.raises(InputError, match="line 2, column 'big'.*beyond any number in SI"):
+        read(tmp_path, body, ",".join([*NAMES, "big"]), columns=columns)

@@ -159,10 +159,11 @@ MASS_PROPERTIES = document(
     Key("possible", FLAG, is_possible),
 )
 
+WAYS = ("body to laboratory", "laboratory to body")
 # Columns of a quaternion are w, x, y, z, those of angles about x, y, z.
 TABLE_ATTITUDE = shape(
     Key("columns", TEXTS, lambda a: a.columns if a.sequence else a.ordered),
-    Key("turns", TEXT, lambda a: ("body to laboratory", "laboratory to body")[a.inverse]),
+    Key("turns", TEXT, lambda a: WAYS[1] if a.inverse else WAYS[0]),
     *fields("sequence", TEXT),
     Key("unit", TEXT, lambda a: ("deg" if a.degrees else "rad") if a.sequence else "1"),
     *fields("signs", many(COUNT)),

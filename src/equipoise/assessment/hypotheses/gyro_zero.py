@@ -42,7 +42,7 @@ def zero_of(spans: Spans, q: Series4, gyro: GyroGuess) -> GyroZero | None:
     answer, *_ = np.linalg.lstsq(knowns, np.cumsum(steps, axis=0), rcond=None)
     left = np.cumsum(steps, axis=0) - knowns @ answer
     # M takes the gyro's integral into turns; what it reports at rest is before M.
-    back: Floats = np.linalg.pinv(answer[2:].T)
+    back: Floats = np.linalg.pinv(answer[2:].T).astype(np.float64)
     variance = np.linalg.pinv(knowns.T @ knowns)[0, 0] * _variances(left)
     return GyroZero(back @ answer[0], np.sqrt(np.square(back) @ variance))
 

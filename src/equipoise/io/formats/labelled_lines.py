@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 NAME = r"[A-Za-z_][\w./]*(?:\[\w+\])?"
 PAIR = re.compile(rf"\s*({NAME})\s*[:=]\s*([^\s,;:=|]+)\s*[,;|]?")
+NOTHING: frozenset[str] = frozenset()
 NOTE = "Each number has its name before it; the names were taken as the header."
 
 
@@ -27,10 +28,10 @@ def labelled(lines: list[str], first: int) -> Labelled | None:
     """
     some = [line for line in lines if line.strip()][:first]
     found = [tuple(each) for each in map(pairs_of, some) if each]
-    usual, often = next(iter(Counter(map(frozenset, found)).most_common(1)), (frozenset(), 0))
+    usual, often = next(iter(Counter(map(frozenset, found)).most_common(1)), (NOTHING, 0))
     if len(usual) < 2 or 2 * often <= len(some):
         return None
-    names = next(each for each in found if usual == {*each})
+    names = next(each for each in found if usual == frozenset(each))
     numbered = [(k, line) for k, line in enumerate(lines, 1) if line.strip()]
     rows = [_row(line, names) for _, line in numbered]
     places = [k for k, _ in numbered]

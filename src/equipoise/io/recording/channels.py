@@ -123,7 +123,7 @@ def _without_overflow(
 ) -> tuple[Channel, list[FaultyRows]]:
     """Return a channel without the rows that are beyond any number in SI, and all its faults."""
     over = ~np.isfinite(channel.values)
-    mask: Bools = over.any(axis=1)
+    mask: Bools = np.logical_or.reduce(over, axis=1)
     if not mask.any():
         return channel, found
     row = int(np.argmax(mask))
