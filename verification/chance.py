@@ -59,9 +59,15 @@ def share_band(
     ``FULL`` the wider binomial one for the worst among so many shares."""
     if seeds >= FULL:
         return wanted
+    low, high = binomial_band(true, seeds, among)
+    return min(low, wanted[0]), max(high, wanted[1])
+
+
+def binomial_band(true: float, seeds: int, among: int = 1) -> tuple[float, float]:
+    """Return the band that the worst among so many shares of ``seeds`` runs leaves rarely."""
     tail = RARE / 2 / among
     low, high = binom.ppf([tail, 1 - tail], seeds, true) / seeds
-    return float(min(low, wanted[0])), float(max(high, wanted[1]))
+    return float(low), float(high)
 
 
 def leaving(band: tuple[float, float], covariances: Sequence[Array], seeds: int) -> float:

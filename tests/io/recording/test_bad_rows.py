@@ -168,5 +168,5 @@ def test_a_factor_beyond_any_number_is_refused(tmp_path) -> None:
     )
     body = [f"{line},1e9" for line in lines(GOOD)]
     columns = read_column_map(tmp_path / "m.toml")
-    with pytest.raises(InputError, match="line 2, column 'big'.*beyond any number in SI"):
+    with pytest.raises(InputError, match=r"line 2, column 'big'.*beyond any number in SI"):
         read(tmp_path, body, ",".join([*NAMES, "big"]), columns=columns)
