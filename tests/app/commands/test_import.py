@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from equipoise.io.recording.recording_file import read_recording
-from equipoise.maths.attitude import conjugate
+from equipoise.maths.attitude import conjugate, difference
 from equipoise.model.recording import Recording
-from equipoise.model.units import DEG
+from equipoise.model.units import DEG, G0
 from tests.oracle.corpus import corpus_record
+from tests.oracle.vector_records import MPU6050, case
 from tests.support.recordings.clock_guises import ticks_of_dot_net
-from tests.support.recordings.frame_guises import accelerations, tilted
+from tests.support.recordings.frame_guises import accelerations, tilted, turned
 from tests.support.recordings.recorded_motion import turning
 from tests.support.recordings.written_tables import columns, saved, text
 
@@ -205,3 +206,58 @@ def test_a_column_of_a_wheel_is_named_where_it_is_left_behind(equipoise, tmp_pat
     again = equipoise("convert", str(out), str(tmp_path / "run.parquet"))
     assert again.code == 0
     assert "reaction_wheel" not in again.out
+
+
+def alike(one, other):
+    """Return the correlation of each column's course about its straight line."""
+    straight = np.column_stack([np.arange(len(one)), np.ones(len(one))])
+    bent = [x - straight @ np.linalg.lstsq(straight, x, rcond=None)[0] for x in (one, other)]
+    lengths = np.linalg.norm(bent[0], axis=0) * np.linalg.norm(bent[1], axis=0)
+    return np.sum(bent[0] * bent[1], axis=0) / lengths
+
+
+TIPPED = {  # our axes in the table of a unit that is mounted so: columns x, y, z of our body's axes
+    "z": np.eye(3),
+    "-z": np.diag([1.0, -1.0, -1.0]),
+    "x": np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]),
+    "-y": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
+}
+
+
+@pytest.mark.parametrize("up", TIPPED)
+def test_an_inertial_unit_without_an_attitude_is_read_whichever_axis_points_up(
+    equipoise, tmp_path, up
+):
+    """Gravity is up again, turns as the rate says, and both have their units."""
+    record = case(3, MPU6050, 40.0).recording
+    load, rate = (each.values @ TIPPED[up].T for each in (record.accelerometer, record.rate))
+    counts = np.column_stack([record.rate.t * 1e3, load / G0 * 16384, rate / DEG * 131]).round()
+    lines = ["ms,ax,ay,az,gx,gy,gz", *(",".join(f"{x:.0f}" for x in row) for row in counts)]
+    (tmp_path / "raw.csv").write_text("\n".join(lines) + "\n")
+    words = ("raw.csv", "--write-map", "m.toml", "--out", "run.csv")
+    done = equipoise("import", *words)
+    assert done.code == 0
+    assert f"up: {up} of the accelerometer" in done.out
+    read = read_recording(tmp_path / "run.csv")
+    upwards = record.accelerometer.values[:, 2]
+    np.testing.assert_allclose(read.accelerometer.values[:, 2], upwards, atol=G0 / 16384)
+    n = read.accelerometer.values / np.linalg.norm(read.accelerometer.values, axis=1)[:, None]
+    turned_by = np.cumsum(np.cross(n, read.rate.values) * 0.01, axis=0)
+    assert alike(n, turned_by)[:2].min() > 0.9
+    shown = equipoise("inspect", "raw.csv", "--columns", "m.toml")
+    assert shown.code == 0
+
+
+def test_a_gyro_whose_axes_are_ours_beside_an_attitude_of_other_axes(equipoise, tmp_path):
+    """Attitude FRD, gyro FLU: the gyro's axes are stated, though they are x, y, z."""
+    motion = turning()
+    down = np.diag([1.0, -1.0, -1.0])
+    q, _ = turned(motion, down)
+    path = saved(tmp_path, text(columns(motion, q=q)))
+    done = equipoise("import", str(path), "--out", str(tmp_path / "out.csv"))
+    assert done.code == 0
+    read = read_recording(tmp_path / "out.csv")
+    turns = np.cumsum(difference(read.attitude.values[1:], read.attitude.values[:-1]), axis=0)
+    middle = 0.5 * (read.rate.values[1:] + read.rate.values[:-1])
+    sums = np.cumsum(middle * np.diff(read.attitude.t)[:, None], axis=0)
+    assert alike(turns, sums).min() > 0.9

@@ -11,6 +11,7 @@ from equipoise.model.errors import InputError
 if TYPE_CHECKING:
     from equipoise.app.runs.importing import Imported
     from equipoise.app.views.import_views import TableRead
+    from equipoise.assessment.hypotheses.inertial_unit import InertialUnit
     from equipoise.assessment.hypotheses.ranking import TableReading
     from equipoise.model.recording import Recording
     from equipoise.model.testbed import Testbed
@@ -129,7 +130,7 @@ def _left_open(found: "Imported", wanted: Wanted) -> int:
 
 def _write(
     found: "Imported",
-    chosen: "TableReading | None",
+    chosen: "TableReading | InertialUnit | None",
     recording: "Recording",
     wanted: Wanted,
     up: str,

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from equipoise.app.arguments.inputs import fitted
+from equipoise.app.runs.map_keys import reading_keys, signed, unit_keys
+from equipoise.assessment.hypotheses.inertial_unit import InertialUnit, inertial_unit
 from equipoise.assessment.hypotheses.number_table import NumberTable
 from equipoise.assessment.hypotheses.ranking import Ranked, TableReading, ranked
 from equipoise.io.columns.column_map import ColumnMap, Columns
@@ -20,7 +22,6 @@ from equipoise.io.columns.text_times import FORMATS, with_times_as_numbers
 from equipoise.io.dialects.dialects import detect
 from equipoise.io.recording.channels import read_time
 from equipoise.io.recording.recording_file import read_table, recording_from
-from equipoise.io.toml.units import KINDS
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -28,7 +29,6 @@ from equipoise.procedure.identification.attitude_direction import direction_of
 
 AND = " and "  # between the names of columns whose sum is the time
 MOSTLY = 0.5  # share of a column's rows that must be numbers for it to be one of numbers (chosen)
-NEXT = {"x": "y", "y": "z", "z": "x"}  # axes in cyclic order
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,6 +40,7 @@ class Imported:
     known: ColumnMap | None  # what a log, or a header of a known kind, says of the columns
     ranked: Ranked
     formats: Mapping[str, str]  # of columns that hold times as text
+    unit: InertialUnit | None = None  # of a table without an attitude
 
     @property
     def by_header(self) -> TableReading | None:
@@ -47,8 +48,10 @@ class Imported:
         known = self.known
         return next((r for r in self.ranked.alike if known and _agrees(r, known)), None)
 
-    def chosen(self, number: int | None) -> TableReading | None:
+    def chosen(self, number: int | None) -> TableReading | InertialUnit | None:
         """Return the reading of a number (from 1), else the one to take; None: it is open."""
+        if self.unit is not None and number is None:
+            return self.unit
         alike = self.ranked.alike
         if number is not None:
             if not 1 <= number <= len(alike):
@@ -63,7 +66,7 @@ class Imported:
         parts = {part for name in columns.names for part in name.split(AND)}
         return tuple(name for name in self.table.names if name and name not in parts)
 
-    def map_keys(self, reading: TableReading, up: str) -> dict[str, Any]:
+    def map_keys(self, reading: TableReading | InertialUnit, up: str) -> dict[str, Any]:
         """Return a reading as a column map file has it; the platform's axis ``up`` stands.
 
         InputError where the time is the sum of columns, which no such file says.
@@ -71,15 +74,20 @@ class Imported:
         if reading.clock.column.count(AND):
             found = f"a time in several columns ({reading.clock.column})"
             raise InputError("--write-map", found, "--out, which writes the recording itself")
-        return _map_keys(reading, up, self.formats)
+        return self._keys(reading, up)
 
-    def columns(self, reading: TableReading, up: str) -> ColumnMap:
+    def _keys(self, reading: TableReading | InertialUnit, up: str) -> dict[str, Any]:
+        if isinstance(reading, InertialUnit):
+            return unit_keys(reading, up, self.formats)
+        return reading_keys(reading, up, self.formats)
+
+    def columns(self, reading: TableReading | InertialUnit, up: str) -> ColumnMap:
         """Return a reading as a column map."""
-        known = self.known
-        if known is not None and reading is self.by_header and _stands(reading, known, up):
+        known, header = self.known, self.by_header
+        header = header if reading is header else None
+        if known is not None and header is not None and _stands(header, known, up):
             return known  # which knows of masses and devices too
-        keys = _map_keys(reading, up, self.formats)
-        return column_map_of(MapFile.model_validate(keys), self.source)
+        return column_map_of(MapFile.model_validate(self._keys(reading, up)), self.source)
 
 
 def imported(file: str | Path, options: ReadOptions) -> Imported:
@@ -93,7 +101,9 @@ def imported(file: str | Path, options: ReadOptions) -> Imported:
     numbers, formats = _numbers(table)
     if not numbers.names:
         raise InputError(str(file), "no column of numbers", "a table of a clock and of attitudes")
-    return Imported(str(file), table, by_header, ranked(numbers), formats)
+    found = ranked(numbers)
+    unit = None if found.alike or by_header is not None else inertial_unit(numbers)
+    return Imported(str(file), table, by_header, found, formats, unit)
 
 
 def map_to_start_from(names: Sequence[str]) -> str:
@@ -133,8 +143,10 @@ def by_motion(found: Imported, testbed: Testbed, bad_rows: float) -> TableReadin
     return alike[int(direction.is_reversed)] if direction.is_sure else None
 
 
-def check_vertical(reading: TableReading, source: str) -> None:
+def check_vertical(reading: TableReading | InertialUnit, source: str) -> None:
     """Raise InputError where an accelerometer shows that no axis of the laboratory points up."""
+    if isinstance(reading, InertialUnit):
+        return
     vertical = reading.vertical
     if vertical is None or not vertical.is_off:
         return
@@ -190,7 +202,7 @@ def _agrees(reading: TableReading, known: ColumnMap) -> bool:
 
 def _stands(reading: TableReading, known: ColumnMap, up: str) -> bool:
     """Say whether the platform's axis ``up`` stands upright by a header, as by a reading."""
-    standing = _signed(known.body["xyz".index(up[-1])], -1 if up.startswith("-") else 1)
+    standing = signed(known.body["xyz".index(up[-1])], -1 if up.startswith("-") else 1)
     return any(frame.is_up(known.lab_up, standing) for frame in reading.frames)
 
 
@@ -231,66 +243,3 @@ def _time_format(table: Table, name: str) -> tuple[str, Series1] | None:
         except InputError:
             continue
     return None
-
-
-def _map_keys(reading: TableReading, up: str, formats: Mapping[str, str]) -> dict[str, Any]:
-    body = _body(reading.frame.body_up, up)
-    clock = reading.clock.column
-    written = {"format": formats[clock]} if clock in formats else {"unit": reading.clock.unit}
-    keys: dict[str, Any] = {}
-    if reading.frame.lab_up != "z":
-        keys["lab_up"] = reading.frame.lab_up
-    if body != ["x", "y", "z"]:
-        keys["body"] = body
-    keys["time"] = {"column": clock, **written}
-    keys["attitude"] = _attitude_keys(reading)
-    if reading.gyro is not None:
-        keys["rate"] = _rate_keys(reading, body)
-    return keys
-
-
-def _attitude_keys(reading: TableReading) -> dict[str, Any]:
-    attitude = reading.attitude
-    keys: dict[str, Any] = {"columns": list(attitude.columns)}
-    if attitude.sequence:
-        places = ["XYZ".index(letter) for letter in attitude.sequence]
-        keys["columns"] = [attitude.columns[k] for k in places]
-        keys |= {"unit": "deg" if attitude.degrees else "rad", "sequence": attitude.sequence}
-        if attitude.signs != (1, 1, 1):
-            keys["signs"] = [attitude.signs[k] for k in places]
-        return keys
-    keys["columns"] = list(attitude.ordered)
-    turns = "laboratory to body" if attitude.inverse else "body to laboratory"
-    return keys | {"order": "wxyz", "turns": turns}
-
-
-def _rate_keys(reading: TableReading, body: list[str]) -> dict[str, Any]:
-    """Return the gyro in our axes: those of the attitude, relabelled as it is."""
-    gyro = reading.gyro
-    assert gyro is not None  # the caller has seen it
-    axes = [_signed(axis, gyro.signs["xyz".index(axis[-1])]) for axis in body]
-    keys: dict[str, Any] = {"columns": list(gyro.columns)}
-    if gyro.unit in KINDS["rate"]:
-        keys["unit"] = gyro.unit
-    else:
-        keys |= {"unit": "rad/s", "factor": float(f"{gyro.factor:.6g}")}
-    return keys if axes == ["x", "y", "z"] else keys | {"axes": axes}
-
-
-def _signed(axis: str, sign: int) -> str:
-    return axis if sign > 0 else axis[1:] if axis.startswith("-") else f"-{axis}"
-
-
-def _body(standing: str, up: str) -> list[str]:
-    """Return our axes in terms of the table's, so that the table's axis that stands is our ``up``.
-
-    The other two follow in cyclic order: the heading of the body's axes is anyone's choice.
-    """
-    if standing == up:
-        return ["x", "y", "z"]
-    sign = -1 if standing.startswith("-") != up.startswith("-") else 1
-    axes = {up[-1]: _signed(standing[-1], sign)}
-    ours, theirs = NEXT[up[-1]], NEXT[standing[-1]]
-    axes[ours] = theirs
-    axes[NEXT[ours]] = _signed(NEXT[theirs], sign)
-    return [axes[letter] for letter in "xyz"]

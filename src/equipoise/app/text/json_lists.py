@@ -187,10 +187,23 @@ TABLE_READING = shape(
     *fields("up=frame", shape(*fields("lab_up body_up", TEXT), *fields("tilt_rad=tilt", NUMBER))),
 )
 
+TRIAD = shape(*fields("columns", TEXTS), *fields("signs", many(COUNT)), *fields("unit", TEXT),
+              *fields("factor", NUMBER))  # fmt: skip
+
+# A gyro beside an accelerometer, axes of this; factors are of SI for one of the column's unit.
+INERTIAL_UNIT = shape(
+    *fields("clock", shape(*fields("column unit", TEXT), *fields("step_s=step", NUMBER))),
+    *fields("accelerometer gyro", TRIAD),
+    *fields("misfit", NUMBER),
+    *fields("spans", COUNT),
+    *fields("up", TEXT),
+)
+
 IMPORT = document(
     "equipoise/import/1",
     *fields("source outcome", TEXT),
     *fields("taken", maybe(TABLE_READING)),
+    *fields("inertial_unit", maybe(INERTIAL_UNIT)),
     *fields("alike", many(TABLE_READING)),
     *fields("next", maybe(TABLE_READING)),
     *fields("left_aside sentences", TEXTS),

@@ -7,12 +7,17 @@ from equipoise.app.text.blocks import Block, Blocks, Claim, Heading, items, sent
 from equipoise.app.text.json_lists import IMPORT
 from equipoise.app.text.json_shape import View
 from equipoise.assessment.hypotheses.gyro_zero import GyroZero
+from equipoise.assessment.hypotheses.inertial_unit import InertialUnit, Triad
 from equipoise.assessment.hypotheses.ranking import Ranked, TableReading
 from equipoise.assessment.hypotheses.verticals import Vertical
 from equipoise.io.recording.frame_check import LEANS
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
+PLACE = (
+    "wanted: [sensor.accelerometer] with its place, and [sensor.gyro], in the testbed file; which "
+    "axes of the platform these are, the table does not say."
+)
 NAMED = 8  # columns left aside that are named (chosen: two lines of a terminal)
 
 
@@ -22,7 +27,7 @@ class TableRead:
 
     source: str
     ranked: Ranked
-    taken: TableReading | None  # None: the file says itself what it holds, or it is open
+    taken: TableReading | InertialUnit | None  # None: the file says it itself, or it is open
     by_header: bool = False  # the file says itself what it holds, and nothing was compared
     notes: tuple[str, ...] = ()
     left_aside: tuple[str, ...] = ()  # columns that the reading does not take
@@ -39,8 +44,10 @@ def import_blocks(found: TableRead) -> Blocks:
     notes = items([*_aside_lines(found.left_aside), *found.notes], "quiet")
     if found.by_header:
         return (Claim("The file says itself what it holds.", "good"), *notes)
-    shown = _open_blocks(found.ranked) if found.taken is None else _taken_blocks(found)
-    return (*shown, *_next_blocks(found), *notes)
+    if isinstance(found.taken, InertialUnit):
+        return (*_unit_blocks(found.taken), *notes)
+    shown = _open_blocks(found.ranked) if found.taken is None else _taken_blocks(found, found.taken)
+    return (*shown, *_next_blocks(found.ranked, found.taken), *notes)
 
 
 def import_json(found: TableRead) -> View:
@@ -48,7 +55,8 @@ def import_json(found: TableRead) -> View:
     return IMPORT.write({
         "source": found.source,
         "outcome": found.outcome,
-        "taken": found.taken,
+        "taken": found.taken if isinstance(found.taken, TableReading) else None,
+        "inertial_unit": found.taken if isinstance(found.taken, InertialUnit) else None,
         "alike": found.ranked.alike,
         "next": found.ranked.runner_up,
         "left_aside": found.left_aside,
@@ -63,9 +71,34 @@ def _open_blocks(ranked: Ranked) -> Blocks:
     return tuple(blocks)
 
 
-def _taken_blocks(found: TableRead) -> Blocks:
-    taken = found.taken
-    assert taken is not None  # the caller has seen it
+def _unit_blocks(unit: InertialUnit) -> Blocks:
+    """Return a gyro and an accelerometer, and how well they agree."""
+    clock, load, gyro = unit.clock, unit.accelerometer, unit.gyro
+    lines = [
+        f"clock: '{clock.column}' in {clock.unit}, a row each {clock.step:.4g} s.",
+        f"accelerometer: x, y, z = {_named(load, 'm/s2')}.",
+        f"gyro: x, y, z = {_named(gyro, 'rad/s')}.",
+        f"up: {unit.up} of the accelerometer.",
+    ]
+    evidence = (
+        f"gravity: {100 * (1 - unit.misfit):.1f}% of its turning in the body over {unit.spans} "
+        "spans is what the gyro says."
+    )
+    return (
+        Claim("No attitude, but an inertial unit; the table is read as follows.", "good"),
+        *items(lines, "plain"),
+        *items([evidence], "good"),
+        *items([PLACE], "quiet"),
+    )
+
+
+def _named(triad: Triad, si: str) -> str:
+    pairs = zip(triad.signs, triad.columns, strict=True)
+    columns = ", ".join(f"{'-' if sign < 0 else ''}'{name}'" for sign, name in pairs)
+    return f"{columns}; {triad.unit or f'{triad.factor:.4g} {si} a count'}"
+
+
+def _taken_blocks(found: TableRead, taken: TableReading) -> Blocks:
     blocks: list[Block] = [Claim("The table is read as follows.", "good")]
     blocks += items(reading_lines(taken), "plain")
     blocks += items(evidence_lines(taken), "good")
@@ -77,11 +110,11 @@ def _taken_blocks(found: TableRead) -> Blocks:
     return tuple(blocks)
 
 
-def _next_blocks(found: TableRead) -> Blocks:
-    other = found.ranked.runner_up
+def _next_blocks(ranked: Ranked, taken: TableReading | None) -> Blocks:
+    other = ranked.runner_up
     if other is None:
         return ()
-    first = found.taken or found.ranked.alike[0]
+    first = taken or ranked.alike[0]
     return items([f"The next reading{_worse(other, first)}: {_differs(other, first)}"], "quiet")
 
 
@@ -179,10 +212,11 @@ def _vertical_line(reading: TableReading, vertical: Vertical) -> str:
 
 
 def unchecked(
-    taken: TableReading | None, recording: Recording, testbed: Testbed | None
+    taken: TableReading | InertialUnit | None, recording: Recording, testbed: Testbed | None
 ) -> tuple[str, ...]:
     """Say how much the laboratory may be tilted without anyone noticing."""
-    if recording.attitude is None or (taken is not None and taken.vertical is not None):
+    measured = isinstance(taken, TableReading) and taken.vertical is not None
+    if recording.attitude is None or measured:
         return ()
     if testbed is None or testbed.tilt_limit >= pi:
         return (

@@ -10,7 +10,7 @@ import numpy as np
 
 from equipoise.assessment.hypotheses.number_table import NumberTable, words_of
 from equipoise.model.arrays import Series1
-from equipoise.model.units import MS, NS, TICK, US
+from equipoise.model.units import MS, NS, NS_100, US
 
 UNITS = {"s": 1.0, "ms": MS, "us": US, "ns": NS}
 TICKS = "100 ns"  # of Windows and .NET; a unit of dates alone
@@ -46,7 +46,7 @@ class ClockGuess:
     @property
     def factor(self) -> float:
         """Return what one of its unit is in s."""
-        return TICK if self.unit == TICKS else UNITS[self.unit]
+        return NS_100 if self.unit == TICKS else UNITS[self.unit]
 
 
 def clock_guesses(table: NumberTable) -> list[ClockGuess]:
@@ -62,9 +62,9 @@ def clock_guesses(table: NumberTable) -> list[ClockGuess]:
 
 def _units(values: Series1) -> dict[str, float]:
     """Return the units that a clock may count, in s: only ticks where these make a date."""
-    first = TICK * float(values[np.isfinite(values)][0])
+    first = NS_100 * float(values[np.isfinite(values)][0])
     is_date = any(DATES[0] < first - zero < DATES[1] for zero in ZEROS)
-    return {TICKS: TICK} if is_date else UNITS
+    return {TICKS: NS_100} if is_date else UNITS
 
 
 def _step(values: Series1) -> float | None:

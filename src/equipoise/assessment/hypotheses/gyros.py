@@ -8,6 +8,7 @@ factor f is common to the three axes. The share of their variation that this lea
 of a wrong direction or order it is large where the platform turned well about the vertical.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -28,7 +29,7 @@ SIGNS = [(x, y, z) for x in (1, -1) for y in (1, -1) for z in (1, -1)]
 # What one count is, rad/s: the units in use, then data sheets of common gyros, deg/s a count.
 SHEETS = (1 / 131, 1 / 65.5, 1 / 32.8, 1 / 16.4, 8.75e-3, 17.5e-3, 35e-3, 70e-3, 1 / 14.375,
           1 / 16, 1 / 900)  # fmt: skip
-KNOWN = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": MILLI, "mdeg/s": MILLI * DEG, "rpm": RPM} | {
+RATES = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": MILLI, "mdeg/s": MILLI * DEG, "rpm": RPM} | {
     f"{sheet:.6g} deg/s a count": sheet * DEG for sheet in SHEETS
 }
 NEAR = 0.04  # by which a factor may miss a known one (chosen: above the scale error of gyros)
@@ -133,17 +134,17 @@ def _assignments(
             projected = float(np.dot(signs, along))
             if projected > 0:
                 # The attitude is the noisier, so it is what is explained.
-                factor, unit = known_factor(projected / whole)
+                factor, unit = known_factor(projected / whole, RATES)
                 misfit = 1.0 - projected**2 / (power * whole)
                 found.append(GyroGuess((x, y, z), order, signs, factor, unit, misfit, len(turns)))
     return found
 
 
-def known_factor(measured: float) -> tuple[float, str]:
+def known_factor(measured: float, known: Mapping[str, float]) -> tuple[float, str]:
     """Return the known factor nearest to a measured one, and its unit; else the one measured."""
-    unit = min(KNOWN, key=lambda each: abs(float(np.log(measured / KNOWN[each]))))
-    if abs(measured / KNOWN[unit] - 1) < NEAR:
-        return KNOWN[unit], unit
+    unit = min(known, key=lambda each: abs(float(np.log(measured / known[each]))))
+    if abs(measured / known[unit] - 1) < NEAR:
+        return known[unit], unit
     return measured, ""
 
 

@@ -44,7 +44,7 @@ def vertical_of(
     None where there are none, or where they show no gravity in the axes of the body.
     """
     columns = accelerometer_columns(table)
-    if not columns:
+    if columns is None:
         return None
     named = np.stack([table.column(name) for name in columns], axis=1)
     order, signs = ((0, 1, 2), (1, 1, 1)) if gyro is None else (gyro.order, gyro.signs)
@@ -67,14 +67,14 @@ def _stands(columns: tuple[str, ...], towards: Series3, lab_up: str) -> Vertical
     return Vertical(columns, float(np.arccos(min(1.0, along))), scatter)
 
 
-def accelerometer_columns(table: NumberTable) -> tuple[str, ...]:
-    """Return the columns that are named as x, y, z of one accelerometer; () unless there is one."""
+def accelerometer_columns(table: NumberTable) -> tuple[str, str, str] | None:
+    """Return the columns named as x, y, z of one accelerometer; None unless there is one."""
     named = [name for name in table.names if _is_acceleration(name)]
     by_axis = [[name for name in named if _axis(name) == axis] for axis in "xyz"]
     if any(len(names) != 1 for names in by_axis):
-        return ()
-    columns = tuple(names[0] for names in by_axis)
-    return columns if any(varies(table.column(name)) for name in columns) else ()
+        return None
+    x, y, z = (names[0] for names in by_axis)
+    return (x, y, z) if any(varies(table.column(name)) for name in (x, y, z)) else None
 
 
 def _is_acceleration(name: str) -> bool:

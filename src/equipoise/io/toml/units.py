@@ -9,7 +9,7 @@ TO_SI = {
     "ms": si.MS,
     "us": si.US,
     "ns": si.NS,
-    "100 ns": si.TICK,
+    "100 ns": si.NS_100,
     "min": si.MINUTE,
     "rad": 1.0,
     "deg": si.DEG,
