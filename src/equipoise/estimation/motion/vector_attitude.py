@@ -54,7 +54,7 @@ def first_attitude(rows: Rows, start: float) -> Quaternion:
     """Return the attitude that turns what is measured from ``start`` (s) on onto the laboratory."""
     early = [(each, channel.values[channel.t <= max(start, channel.t[0]) + FIRST])
              for each, channel in rows]  # fmt: skip
-    measured = np.array([_unit(values.mean(axis=0)) for _, values in early])
+    measured = np.array([_unit(np.median(values, axis=0)) for _, values in early])  # some are wild
     true = np.array([_unit(each.vector_N) for each, _ in early])
     return from_matrix(Rotation.align_vectors(true, measured)[0].as_matrix())
 
