@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import math
 import re
 import shutil
 from pathlib import Path
@@ -19,6 +20,7 @@ from equipoise.io.columns.column_map_file import MapFile, read_column_map
 from equipoise.io.columns.read_options import BAD_ROWS, ReadOptions
 from equipoise.io.formats.long_text import LONG
 from equipoise.io.recording.recording_file import read_recording
+from equipoise.io.testbed.testbed_file import read_testbed
 from tests.docs.test_examples import ROOT, Block, blocks, commands, run_python
 from tests.io.dialects.test_motion_capture import motive
 from tests.support.flight_logs import flight
@@ -128,3 +130,14 @@ def test_the_python_of_the_page_runs(here):
 def test_numbers_of_the_page_are_those_of_the_code():
     assert f"Up to {100 * BAD_ROWS:g} % of the rows may be left out." in TEXT
     assert f"the same beyond {LONG / 1e6:g} MB" in TEXT
+
+
+def test_the_sensors_of_a_platform_without_a_camera_are_a_testbeds(tmp_path):
+    """In place of the camera of a testbed file."""
+    (block,) = (b for b in BLOCKS if b.kind == "text" and "[sensor.accelerometer]" in b.text)
+    whole = tomlkit.parse(next(b.text for b in TUTORIAL if b.kind == "toml")).unwrap()
+    (tmp_path / "blind.toml").write_text(tomlkit.dumps(whole | tomlkit.parse(block.text).unwrap()))
+    bed = read_testbed(tmp_path / "blind.toml")
+    assert bed.attitude is None
+    assert bed.accelerometer.place == pytest.approx([0.08, -0.05, 0.06])
+    assert bed.accelerometer.mounting_sd == pytest.approx(math.radians(0.5))

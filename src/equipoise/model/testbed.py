@@ -71,7 +71,7 @@ class SlidingMass:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AttitudeSensor:
-    """A camera, say; a row at t is the mean over [t - delay - averaging, t - delay]."""
+    """A camera or star tracker; a row at t is the mean over [t - delay - averaging, t - delay]."""
 
     rate: float  # Hz
     noise: float  # rad, one sd per axis and sample

@@ -31,7 +31,7 @@ CLOCK: float = Field(
 
 
 class Attitude(RecordTable):
-    """A camera or motion capture."""
+    """A camera, motion capture or star tracker: whatever gives whole attitudes."""
 
     KIND = model.AttitudeSensor
 
