@@ -21,6 +21,7 @@ from equipoise.model.outcome import (
     outcome,
     trust_of,
 )
+from equipoise.model.reasons.data_reasons import Unexplained
 from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import UNITS, Code, Quantity, Reason, distinct, one_reason
@@ -63,6 +64,9 @@ def example(code):
     parameters = [
         f"x{k}" for k in range(1 + max((int(n) for n in names if n.isdigit()), default=0))
     ]
+    for _, spec in fields(code):
+        if named := re.match(r"\{(\d)\} ", spec):  # a parameter names the unit
+            parameters[int(named[1])] = "um"
     numbers = {n: 1.25 for n in names if not n.isdigit() and n not in LISTS}
     return Reason(code, tuple(parameters), numbers)
 
@@ -93,7 +97,14 @@ def test_numbers_of_sentences_have_units_that_are_known():
             if name.isdigit() or name in LISTS:
                 assert spec == "", code
             else:
-                assert spec.rpartition(" ")[0] in UNITS, code
+                unit = spec.rpartition(" ")[0]
+                assert unit in UNITS or re.fullmatch(r"\{\d\}", unit), code
+
+
+def test_a_parameter_may_name_the_unit_of_a_number():
+    code = Unexplained.TERM_WOULD_WIDEN
+    sentence = Reason(code, ("com_x", "sag", "um"), {"sd": 2.2e-6}).sentence
+    assert sentence.endswith("its sd would be 2.2 um.")
 
 
 def test_a_codes_word_belongs_to_one_enumeration_only():

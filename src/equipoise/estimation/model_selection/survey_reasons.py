@@ -20,7 +20,7 @@ from equipoise.estimation.stays_at_stop import stays
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats, Square
-from equipoise.model.estimate import Estimate
+from equipoise.model.estimate import COM, Estimate
 from equipoise.model.reasons.data_reasons import Unexplained
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason, axes_of
@@ -183,15 +183,15 @@ def open_terms(model: RecordModel) -> tuple[Reason, ...]:
 
     With such a term free, an sd would be more than OPEN times what it is.
     """
-    names, units = (x[CORE] for x in (model.fitted.problem.layout.names,
-                                      model.fitted.problem.layout.units))  # fmt: skip
+    names = model.fitted.problem.layout.names[CORE]
     firm, found = core_sd(model.fitted.at.normal), list[Reason]()
     for group in candidates(model):
         problem, jumps = posed_in(with_group(model, group), model.recording)
         free = core_sd(evaluate(problem, model.fitted.point, jumps).normal)
         k = int(np.argmax(free / firm))
         if free[k] > OPEN * firm[k]:
-            about = (names[k], group[0].split("_")[0], units[k])
+            unit = "um" if names[k] in COM else "kg m2"
+            about = (names[k], group[0].split("_")[0], unit)
             found.append(Reason(Unexplained.TERM_WOULD_WIDEN, about, {"sd": float(free[k])}))
     return tuple(found)
 

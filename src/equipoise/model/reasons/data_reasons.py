@@ -45,7 +45,7 @@ class Unexplained(Code):
     TERM_WOULD_WIDEN = (
         "term_would_widen",
         "{0} is this firm only without a '{1}' term, which the record does not support: with one "
-        "its sd would be {sd:.2g} {2}.",
+        "its sd would be {sd:{2} .2g} {2}.",
     )
     GAINS_ALIKE = (
         "gains_alike",

@@ -1,9 +1,10 @@
 """A reason: a code for programs, what it is about, its numbers in SI, and its sentence for people.
 
 The sentence of a code is a template. It names the numbers with the unit and digits in which people
-read them, ``{tilt:deg .1f}``; ``{0}`` is the first of the parameters, ``{names}`` all of them with
-commas, ``{both}`` with "and", ``{choices}`` with semicolons, ``{rest}`` all but the first. No
-program reads a sentence: it reads the code, whose word belongs to one enumeration only.
+read them, ``{tilt:deg .1f}``, or takes the unit from a parameter, ``{sd:{2} .2g}``. ``{0}`` is the
+first of the parameters, ``{names}`` all of them with commas, ``{both}`` with "and", ``{choices}``
+with semicolons, ``{rest}`` all but the first. No program reads a sentence: it reads the code, whose
+word belongs to one enumeration only.
 """
 
 from collections.abc import Iterable, Mapping
@@ -13,7 +14,7 @@ from enum import StrEnum
 from equipoise.model.units import DEG, MINUTE, MM, MN_M, MS, PERCENT, UM, UN_M
 
 UNITS = {"": 1.0, "deg": DEG, "um": UM, "mm": MM, "ms": MS, "uN m": UN_M, "mN m s": MN_M,
-         "%": PERCENT, "min": MINUTE}  # fmt: skip
+         "%": PERCENT, "min": MINUTE, "kg m2": 1.0}  # fmt: skip
 Number = int | float  # a count, or a quantity
 LISTS = {"names": ", ", "both": " and ", "choices": "; "}
 PLAIN = "plain"  # three digits, or whole where there are more before the point

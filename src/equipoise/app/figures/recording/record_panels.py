@@ -14,13 +14,19 @@ from equipoise.assessment.record_checks.outliers import outlying_attitudes, outl
 from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Series1, Series3, Vector3
 from equipoise.model.recording import Recording, Samples
-from equipoise.model.units import DEG, MM, MS
+from equipoise.model.units import DEG, MM, MS, UT
 
 Panel = Callable[[Axes], None]
 FEWEST = 3  # rows for a rate
 RARE = 0.005  # share of values at either end that may be drawn beyond the range (chosen)
 WIDENED = 0.5  # of the range of the others, within which they are not beyond it (chosen)
 TINY = 1e-9  # deg, deg/s: a range is never empty
+# By channel: what is measured of a vector, and the unit in which it is drawn.
+VECTORS = {
+    "accelerometer": ("accelerometer,\nm/s2", 1.0),
+    "sun": ("sun sensor,\nunit vector", 1.0),
+    "field": ("magnetometer,\nuT", UT),
+}
 DECADES = 8.0  # ratio of the longest spacing to the shortest, from which its scale is logarithmic
 
 
@@ -45,6 +51,9 @@ def panels_of_motion(recording: Recording, up: Vector3 | None) -> list[Panel]:
         found += [_tilt(attitude, up), _heading_rate(attitude)]
     if rate is not None:
         found.append(_by_axis(rate.t, rate.values, "gyro, deg/s"))
+    for channel, (label, unit) in VECTORS.items():
+        if (vectors := _enough(getattr(recording, channel))) is not None:
+            found.append(_by_axis(vectors.t, vectors.values, label, unit))
     if recording.masses is not None and len(recording.masses):
         found.append(_masses(recording.masses, recording.mass_names))
     return found
@@ -75,9 +84,9 @@ def _heading_rate(attitude: Samples) -> Panel:
     return draw
 
 
-def _by_axis(t: Series1, values: Series3, label: str) -> Panel:
+def _by_axis(t: Series1, values: Series3, label: str, unit: float = DEG) -> Panel:
     def draw(axes: Axes) -> None:
-        _dots_within(axes, t, list(values.T / DEG), list(XYZ), list(AXES))
+        _dots_within(axes, t, list(values.T / unit), list(XYZ), list(AXES))
         _legend(axes)
         axes.set_ylabel(label)
 
