@@ -136,7 +136,8 @@ def test_wrong_usage_is_reported_in_one_sentence(equipoise, words, wanted):
 
 @pytest.mark.parametrize(
     ("pile", "wanted"),
-    [("three washers", "a line such as"), ("3 x bolt at deck:A1", "'bolt'"),
+    [("three washers", "a line such as"), ("9" * 20 + " x washer at deck:A1", "a line such as"),
+     ("3 x bolt at deck:A1", "'bolt'"),
      ("3 x washer at deck:Z9", "'deck:Z9'")],
 )  # fmt: skip
 def test_an_impossible_pile_is_reported_with_its_round(equipoise, swings, pile, wanted):

@@ -23,7 +23,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.weights import places_of, unloaded
 
 WANTED = "a session of balance --manual (TOML)"
-PILE = re.compile(r"\s*(?P<count>\d+)\s*x\s*(?P<weight>\S+)\s+at\s+(?P<place>\S+)\s*")
+PILE = re.compile(r"\s*(?P<count>\d{1,4})\s*x\s*(?P<weight>\S+)\s+at\s+(?P<place>\S+)\s*")
 
 
 class Round(Table):

@@ -17,7 +17,7 @@ Address = Annotated[
     str,
     Field(
         pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|udpout:.+:\d+|ws://.+|wss://.+|https?://.+"
-        r"|camera:\d+(@\d+x\d+)?)$"
+        r"|camera:\d{1,4}(@\d{1,5}x\d{1,5})?)$"
     ),
     Holds("port.address"),
 ]
