@@ -81,7 +81,9 @@ def check(card: LawCard, testbed: Testbed) -> None:
     missing = [NEEDS[need] for need in lacking(card, testbed)]
     if missing:
         found = f"a testbed without {' and without '.join(missing)}"
-        wanted = "them in the testbed file, or another law (equipoise laws)"
+        wanted = (
+            "what it needs in the testbed file, another law (equipoise laws), or balance --manual"
+        )
         raise InputError(f"law {card.name}", found, wanted)
 
 
