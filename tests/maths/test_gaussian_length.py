@@ -84,7 +84,7 @@ SLENDER = [
 
 @pytest.mark.parametrize(("sd", "truth"), SLENDER)
 def test_no_vector_is_often_found_longer_than_it_is(sd, truth):
-    """Errors much unlike each other, length 0.4 to 100 sd: 4 % at most, and three sd of the share."""
+    """Errors much unlike each other, length 0.4 to 100 sd: 4 % and three sd of it at most."""
     rng, length, draws = np.random.default_rng(4), float(np.linalg.norm(truth)), count(600, 200)
     means = np.array(truth) + rng.normal(size=(draws, 3)) * sd
     P = np.diag(np.square(sd))
