@@ -74,13 +74,15 @@ def started(folder: Path, *words: object, port: int | None = None) -> Dashboard:
 
 
 @contextmanager
-def dashboard(folder: Path, *words: object) -> Iterator[Dashboard]:
-    """Lend a running dashboard."""
+def dashboard(folder: Path, *words: object, ended_with: int = signal.SIGINT) -> Iterator[Dashboard]:
+    """Lend a running dashboard, which ends without a fault."""
     running = started(folder, *words)
     try:
         yield running
     finally:
-        running.end()
+        code = running.end(ended_with)
+    assert code == 0
+    assert "Traceback" not in (folder / "printed.txt").read_text()
 
 
 @contextmanager

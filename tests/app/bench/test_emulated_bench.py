@@ -5,12 +5,16 @@ Emulated devices and keeper share one clock that goes as fast as it can
 """
 
 import contextlib
+import signal
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from equipoise.app.console.stop_request import stoppable
+from equipoise.app.runs import balancing
 from equipoise.app.runs.balancing import Goal, Limits, run
+from equipoise.hardware.bench.stop_signals import STOPPING
 from equipoise.io.mcap.live_recording import RecordingStopped
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import difference
@@ -20,12 +24,14 @@ from equipoise.model.hardware import Port
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Samples
+from equipoise.model.step import Step
 from equipoise.model.units import MM
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from tests.support import emulated_lab, thorough
 from tests.support.board_wire import board_of
 from tests.support.emulated_lab import over_tcp
 from tests.support.faulty_wire import garbage, half, noisy, repeated, silent
+from tests.support.outcomes import OBSERVED
 from tests.support.sensor_units import NEEDS, PICTURES
 
 BED = over_tcp(read_preset("nanosat"))
@@ -257,6 +263,28 @@ def test_ctrl_c_at_the_moment_of_an_interlock_ends_with_the_account(monkeypatch)
     assert done.verdict.outcome == "halted"
     assert done.verdict.sentence.startswith("Stopped by hand: every mass was stopped")
     assert "the platform is touched" in done.verdict.sentence
+
+
+@pytest.mark.parametrize("number", STOPPING[1:], ids=lambda number: number.name)
+def test_a_signal_in_the_middle_of_a_move_halts_the_masses_and_says_which(monkeypatch, number):
+    """By a service that stops, or a terminal that is gone."""
+
+    def moving(bench, _goal, _limits):
+        bench.move({"x": 14 * MM})
+        yield Step("measurement", bench.time, OBSERVED, recording=bench.read(0.5))
+        signal.raise_signal(number)
+
+    monkeypatch.setattr(balancing, "procedure", moving)
+    with lab() as found, stoppable():
+        goal = Goal(np.array([0.0, 0.0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]))
+        done = run(found.bench, goal, Limits(), None)
+        found.wait(1.0)
+        at = found.emulated.platform.displacements[0]
+        found.wait(0.5)
+        assert found.emulated.platform.displacements[0] == at
+    assert 2 * MM < at < 7 * MM
+    assert done.verdict.code == "stopped_by_signal"
+    assert done.verdict.reasons[0].parameters[0] == number.name
 
 
 def test_a_disk_that_is_full_when_a_command_is_noted_stops_the_bench():

@@ -76,7 +76,8 @@ def terminated(balancing):
 STOPS = {"SIGHUP": (hung_up, 129), "SIGTERM": (terminated, 143)}
 
 
-@pytest.mark.parametrize("name", thorough.some(list(STOPS), 1))
+@thorough.whole
+@pytest.mark.parametrize("name", STOPS)
 def test_the_middle_of_a_move(bench, name):
     stop, wanted = STOPS[name]
     for k in range(TRIES):

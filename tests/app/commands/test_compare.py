@@ -178,7 +178,10 @@ WRONG = {
     "a method": (["--laws", "--only", "trajectory"], "--only"),
     "a mass": (["--methods", "--move", "5: q=1"], "--move"),
     "no time": (["--methods", "--duration-s", "0"], "--duration-s"),
-    "a late move": (["--methods", "--duration-s", "9", "--move", "10: x1=1"], "moves"),
+    "a late move": (
+        ["--methods", "--duration-s", "9", "--move", "10: x1=1", "--workers", "1"],
+        "moves",
+    ),
     "a held name": (["--methods", "--hold", "mass"], "--hold"),
     "neither": ([], "--methods or --laws"),
 }

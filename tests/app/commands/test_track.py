@@ -93,7 +93,7 @@ def test_a_folder_with_a_board_and_a_lens(equipoise, tmp_path, pictures):
 def test_a_board_of_measured_tags_and_an_aprilgrid_are_declared_in_a_file(equipoise, tmp_path):
     """Both keys' files say the board that is drawn; `print-board` writes the AprilGrid's."""
     done = equipoise(
-        "print-board", "--out", "a.png", "--keys", "april.toml", "--columns", 4, "--rows", 3,
+        "print-board", "--out", "a.pdf", "--keys", "april.toml", "--columns", 4, "--rows", 3,
         "--marker-mm", 50, "--spacing", 0.3,
     )  # fmt: skip
     assert done.code == 0, done.err

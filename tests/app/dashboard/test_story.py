@@ -58,8 +58,9 @@ def wait_until(page, condition, most=LATER):
 
 def test_a_platform_is_balanced_and_another_stopped_from_the_page(chromium, tmp_path):
     """What of the story below a change breaks most easily."""
-    with dashboard(tmp_path, "nanosat") as running:
+    with dashboard(tmp_path, "nanosat", "--expose", "127.0.0.1") as running:
         page, received = opened(chromium, running)
+        expect(button(page, "Start balancing")).to_be_disabled()
         take_command(page, running.token)
         expect(button(page, "Start balancing")).to_be_enabled(timeout=SOON)
         balanced_until_it_passes(page)

@@ -29,6 +29,7 @@ from equipoise.model.recording import Recording, Samples, window
 from equipoise.procedure.identification.record_courses import fit_motions, tracked_courses
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.free_start import freely
+from tests.support import thorough
 
 BED = read_preset("sputnix")
 PNG = b"\x89PNG"
@@ -112,7 +113,10 @@ sys.exit(run(["simulate", "sputnix", "--duration-s", "10", "--out", "b.csv"])
 """
 
 
-@pytest.mark.parametrize("backend", ["module://matplotlib_inline.backend_inline", "none_such"])
+BACKENDS = ["module://matplotlib_inline.backend_inline", "none_such"]
+
+
+@pytest.mark.parametrize("backend", thorough.some(BACKENDS, 1))
 def test_a_backend_that_cannot_be_imported_breaks_no_figure(tmp_path, backend):
     """A notebook names its own for every program that it starts."""
     done = subprocess.run(

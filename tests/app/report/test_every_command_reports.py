@@ -14,6 +14,10 @@ COMMANDS = {
     "balance": ("balance", "sputnix", "--seed", "3"),
 }
 
+# What a person looks for: a figure of the paper, and words at the terminal.
+FIGURES = {"estimate": "figure06_attitude", "balance": "figure14_balancing"}
+WORDS = {"estimate": ("predicted for",), "balance": ("Before and after", "truth after")}
+
 
 @pytest.mark.usefixtures("few_platforms")
 @pytest.mark.parametrize("name", COMMANDS)
@@ -34,6 +38,9 @@ def test_the_report_holds_what_the_terminal_shows(name, equipoise, record_file, 
     assert any(title and title in done.out for title in titles)
     for figure in (block for block in blocks if isinstance(block, Figure)):
         assert (folder / "figures" / f"{figure.name}.svg").exists()
+    if name in FIGURES:
+        assert (folder / "figures" / f"{FIGURES[name]}.png").exists()
+    assert all(words in done.out for words in WORDS.get(name, ()))
 
 
 @pytest.mark.parametrize("name", ["observe", "calibrate", "plan"])

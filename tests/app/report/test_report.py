@@ -98,25 +98,6 @@ def test_every_step_is_in_the_report(folder, strict_json):
         assert step["sentence"].replace("'", "&#x27;").replace(">", "&gt;") in page
 
 
-def test_identify_reports_too(equipoise, record_file, tmp_path):
-    done = equipoise("identify", record_file, "--testbed", "sputnix", "--out", "out")
-    assert done.code == 0
-    names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert OF_A_REPORT | {"estimate.json"} <= names
-    assert (tmp_path / "out" / "figures" / "figure06_attitude.png").exists()
-    assert "predicted for" in done.out
-
-
-def test_balance_reports_too(equipoise, tmp_path):
-    done = equipoise("balance", "sputnix", "--seed", "3", "--out", "out")
-    assert done.code in (0, 1)
-    names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert OF_A_REPORT | {"balance.json"} <= names
-    assert (tmp_path / "out" / "figures" / "figure14_balancing.png").exists()
-    assert "Before and after" in done.out
-    assert "truth after" in done.out
-
-
 def test_a_record_is_drawn_on_request(equipoise, record_file, tmp_path):
     for name in ("record.png", "record.svg", "record.pdf"):
         assert equipoise("inspect", record_file, "--figure", name).code == 0

@@ -12,6 +12,7 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.logs.dataflash_log import messages_of
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.model.errors import InputError
+from tests.support import thorough
 from tests.support.flight_logs import HEADING, dataflash, flight, layout, logged, times
 
 HALF = radians(30) / 2
@@ -148,10 +149,11 @@ def test_a_layout_of_an_impossible_length_is_no_layout(tmp_path, length):
 
 def test_broken_bytes_end_with_the_declared_error_or_a_table(tmp_path):
     content, rng, ends = flight("XKQ", "ATT", "IMU", "GYR"), np.random.default_rng(3), []
-    for k in range(300):
+    draws = thorough.count(300, 100)
+    for k in range(draws):
         at = int(rng.integers(2, len(content)))
         garbled = content[:at] + bytes([content[at] ^ (1 << int(rng.integers(8)))])
         with contextlib.suppress(InputError):
             read(tmp_path, garbled + content[at + 1 :] if k % 2 else content[:at])
         ends.append(k)
-    assert len(ends) == 300
+    assert len(ends) == draws

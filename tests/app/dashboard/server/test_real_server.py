@@ -21,11 +21,13 @@ LATER = 120_000  # ms
 def running(tmp_path_factory):
     """An address that others may open, as with --expose; here it is this computer's own."""
     folder = tmp_path_factory.mktemp("exposed")
-    with dashboard(folder, "nanosat", "--expose", "127.0.0.1") as there:
+    words = ("nanosat", "--expose", "127.0.0.1")
+    with dashboard(folder, *words, ended_with=STOPPING[-1]) as there:
         yield there
 
 
-@pytest.mark.parametrize("number", thorough.some(STOPPING[::-1], 1))
+@thorough.whole
+@pytest.mark.parametrize("number", STOPPING)
 def test_ctrl_c_and_its_like_end_it_without_a_fault(tmp_path, number):
     assert started(tmp_path, "nanosat").end(number) == 0
     assert "Traceback" not in (tmp_path / "printed.txt").read_text()
@@ -95,6 +97,7 @@ def test_pages_and_files_need_the_token(running):
     assert status_of(f"{here(running)}/static/page.js?token={running.token}") == 200
 
 
+@thorough.whole
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
 def test_the_address_that_was_printed_opens_the_page(running):
     """The token of the address lets a page observe; to command it is asked for once more."""
