@@ -146,9 +146,9 @@ def test_one_usable_run_is_no_joint_fit(alone):
 
 def test_halves_of_one_recording_agree_as_the_whole_does():
     """Consecutive halves as two runs: the same scale, the same body as by the whole record."""
-    whole = platform_runs(5, (True,), duration=50.0)
+    whole = platform_runs(5, (True,), duration=80.0)
     record = whole.recordings[0]
-    halves = [window(record, 0.0, 25.0), window(record, 25.0, 50.0)]
+    halves = [window(record, 0.0, 40.0), window(record, 40.0, 80.0)]
     parts = replace(whole, recordings=tuple(halves))
     found = estimate_jointly(parts.alone(), whole.testbed)
     (single,) = whole.alone()
