@@ -23,7 +23,7 @@ def test_tracker_is_at_the_bound_and_honest() -> None:
 
 def test_tracker_knows_what_it_does_not_know() -> None:
     """Some runs of each kind: doubtful inertia, contacts, steps, a gap, loud noise."""
-    assert tracker_knows.measure(range(thorough.count(8, 2))).missed == ()
+    assert tracker_knows.measure(range(thorough.count(8, 3))).missed == ()
 
 
 real_recording = pytest.mark.skipif(
