@@ -55,6 +55,12 @@ def lying():
     return record, touch
 
 
+@cache
+def estimate_of(name):
+    """What a method makes of that record."""
+    return estimated(METHODS[name], lying()[0], BED, Options())
+
+
 def test_a_stay_is_at_the_limit_for_long():
     """Rows 10 to 29, 2 to 5.8 s; not a touch of 1 s, nor what leans half as much again."""
     assert stays(leaning([0.5] * 10 + [1.0] * 20 + [0.5] * 10), BED) == [(2.0, pytest.approx(5.8))]
@@ -99,14 +105,12 @@ def test_what_is_not_usable_stays_as_it_is():
 
 @pytest.mark.parametrize("name", METHODS)
 def test_no_method_states_numbers_of_a_record_with_a_stay(name):
-    record, _ = lying()
-    found = estimated(METHODS[name], record, BED, Options())
-    assert not found.outcome.usable
+    assert not estimate_of(name).outcome.usable
 
 
 def test_the_stay_and_the_part_without_it_are_those_of_the_bench():
     record, touch = lying()
-    found = identified(record, BED, Params())
+    found = estimate_of("trajectory")
     (reason,) = [r for r in found.outcome.reasons if r.code is Why.LAY_ON_STOP]
     assert reason.numbers["start"] == pytest.approx(touch.start, abs=0.3)
     assert touch.end < reason.numbers["end"] == reason.numbers["first"] < touch.end + 5.0

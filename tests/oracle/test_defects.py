@@ -14,6 +14,7 @@ from tests.oracle import cases, defective_run, sensors
 from tests.oracle import defects as flaws
 from tests.oracle import mujoco_bench as oracle
 from tests.oracle.defects import BadRow, ComStep, Contact, Defects, Harmonic
+from tests.support import thorough
 
 J = np.diag([0.35, 0.54, 0.85])
 LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
@@ -298,7 +299,7 @@ def test_sizes_are_within_their_ranges():
 # --- whole cases ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(thorough.count(3, 1)))
 def test_cases_move_as_promised(seed):
     for case, tilt, rate in ((cases.case_g, 14.0, 1.3), (cases.spinner, 7.0, 110.0)):
         logged = case(seed)

@@ -19,7 +19,7 @@ from tests.oracle.inertial_sensors import accelerometer, vector
 from tests.oracle.vector_records import LAMP, LEE, PLACE, case, movable
 from verification.vector_sensors import bound_of
 
-SECONDS, SEED = 40.0, 5
+SECONDS, SEED = 25.0, 5
 SIZE = np.repeat([1e-8, 1e-5, 1e-6, 1e-6], [3, 6, 3, 3])  # m, kg m^2, rad, rad/s: 1e-3 sd or less
 
 

@@ -68,7 +68,7 @@ def test_the_card_says_it_all(name):
     assert set(card.heeds) <= set(REQUESTED)
 
 
-@pytest.mark.parametrize(("name", "option"), thorough.pairs(METHODS, REQUESTED, 2))
+@pytest.mark.parametrize(("name", "option"), thorough.pairs(METHODS, REQUESTED, 4))
 def test_an_option_is_known_or_refused(name, option):
     """Nothing that is asked for is passed over in silence."""
     method = METHODS[name]
@@ -79,7 +79,7 @@ def test_an_option_is_known_or_refused(name, option):
             estimated(method, sound(), bed(), REQUESTED[option])
 
 
-@pytest.mark.parametrize("name", thorough.some(list(METHODS), 12))
+@pytest.mark.parametrize("name", thorough.some(list(METHODS), 6))
 def test_a_method_is_pure_and_repeatable(name):
     """The record is as it was, and a second run gives the same numbers to the last digit."""
     record, before = sound(), [c.values.copy() for c in (sound().attitude, sound().rate)]

@@ -1,6 +1,7 @@
 """A centre of mass that moves by itself, undeclared, by masses that nobody knows, of MuJoCo."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -37,6 +38,12 @@ def warmth(t):
     return WARMER * -np.expm1(-np.maximum(t - LAMP, 0.0) / SLOW)
 
 
+def warmed(t):
+    """Return how far (m) the lamp's warmth has moved it."""
+    return THERMAL * warmth(t)
+
+
+@cache
 def moving(seed: int, spin: float, course):
     """Return platform, way of the motion, record of the known masses alone, and testbed."""
     case, rng = cases._fourteen_case(seed, 300.0, CAMERA, GYRO), np.random.default_rng([seed, 9])
@@ -88,7 +95,7 @@ def thermometer(noise: float) -> Samples:
 @pytest.mark.parametrize("spin", thorough.some([SPIN, 0.0], 1))
 def test_a_lamps_warmth_is_found_by_the_recorded_temperature(spin):
     """3 um in minutes, of a lamp that goes on at 40 s: within 4 sd, com too; no events."""
-    platform, way, record, testbed = moving(0, spin, lambda t: THERMAL * warmth(t))
+    platform, way, record, testbed = moving(0, spin, warmed)
     found = estimate(replace(record, temperature=thermometer(0.0)), testbed, Params())
     check_found(found, GROUPS["thermal"], THERMAL * way, platform.com)
     end = np.array([found.values((name,))[0] for name in END])
@@ -111,7 +118,7 @@ def lamp_at(stated: float, record, testbed):
 )
 def test_a_lamps_warmth_is_found_by_its_switch(spin, stated):
     """However wrong its time constant is stated: found within a tenth; com as by a thermometer."""
-    platform, way, record, testbed = moving(0, spin, lambda t: THERMAL * warmth(t))
+    platform, way, record, testbed = moving(0, spin, warmed)
     found = estimate(*lamp_at(stated, record, testbed), Params())
     check_found(found, GROUPS["thermal"], THERMAL * way, platform.com)
     (reason,) = [r for r in found.outcome.reasons if r.code is Why.LAMP_RESPONSE]
@@ -122,7 +129,7 @@ def test_a_lamps_warmth_is_found_by_its_switch(spin, stated):
 @pytest.mark.parametrize("stated", thorough.some([20.0, 60.0, 180.0], 2))
 def test_a_time_constant_that_is_not_known_widens_the_intervals(stated):
     """Ten seconds behind the switch nobody can tell how warm it will be in the end."""
-    _, way, record, testbed = moving(0, SPIN, lambda t: THERMAL * warmth(t))
+    _, way, record, testbed = moving(0, SPIN, warmed)
     record, testbed = lamp_at(stated, window(record, 0.0, LAMP + 10.0), testbed)
     names = GROUPS["thermal"]
     found = estimate(record, testbed, Params(names))
@@ -135,7 +142,7 @@ def test_a_time_constant_that_is_not_known_widens_the_intervals(stated):
 @thorough.whole
 def test_a_thermometer_that_errs_leaves_com_as_certain_as_stated():
     """By 0.05 K a reading, which moves com by 0.05 um: com within 4 sd, the term is there."""
-    platform, _, record, testbed = moving(0, SPIN, lambda t: THERMAL * warmth(t))
+    platform, _, record, testbed = moving(0, SPIN, warmed)
     found = estimate(replace(record, temperature=thermometer(0.05)), testbed, Params())
     sd = np.sqrt(np.diag(found.covariance_of(COM)))
     assert np.abs((found.com - platform.com) / sd).max() < 4.0
@@ -144,7 +151,7 @@ def test_a_thermometer_that_errs_leaves_com_as_certain_as_stated():
 
 def test_a_temperature_that_does_not_change_is_no_candidate():
     """Nor one that was never recorded: its columns would be zero."""
-    _, _, record, testbed = moving(0, SPIN, drift)
+    _, _, record, testbed = moving(0, SPIN, warmed)
     steady = Samples(np.array([0.0, SECONDS]), np.array([[21.0], [21.0]]))
     assert not warms(record, testbed)
     assert not warms(replace(record, temperature=steady), testbed)

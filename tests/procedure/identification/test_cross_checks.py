@@ -23,7 +23,7 @@ from equipoise.procedure.steps.clean_record import sound
 from tests.support import thorough
 from tests.support.quiet_records import lowered, quiet
 
-SEEDS = range(thorough.count(30, 4))
+SEEDS = range(thorough.count(30, 2))
 SPIN = 42.0  # deg/s: a turn in 8.57 s
 TOUCH = Event("impulse", 3.0, 0.1, np.full(3, 1e-4), 1e-10 * np.eye(3), 50.0)
 EXPLAINED = outcome(EstimateReason.EXPLAINED_ATTITUDE, attitude_rms=1e-3)
@@ -55,7 +55,7 @@ def test_a_spin_of_42_deg_s_is_no_swing():
     And each height is the truth's along the vertical, within four of its own sd.
     """
     lines, off = np.array([1, 2, 3]) * SPIN / 360.0, []
-    for seed in range(thorough.count(60, 10)):
+    for seed in range(thorough.count(60, 4)):
         case = quiet(seed, SPIN)
         for minute in case.minutes:
             for each in swings_of(case, minute):
