@@ -489,7 +489,7 @@ HARDWARE = _of(
 
 APP = _of(
     "app",
-    ("runs/map_keys.py", "if axes == body else", "if axes == ['x', 'y', 'z'] else",
+    ("arguments/map_keys.py", "if axes == body else", "if axes == ['x', 'y', 'z'] else",
      "app/commands/test_import.py"),
     ("console/stop_request.py", "if self._put_off or (unfit(frame) and",
      "if self._put_off or (False and", "app/console/test_stop_request.py"),

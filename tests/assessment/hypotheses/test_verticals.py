@@ -50,10 +50,10 @@ def test_a_sensor_with_other_axes_says_nothing() -> None:
             ("accel_x [g]", "accel_y [g]", "accel_z [g]"),
             ("accel_x [g]", "accel_y [g]", "accel_z [g]"),
         ),
-        (("linear_acceleration.x", "linear_acceleration.y"), ()),
-        (("ax", "ay", "az", "acc2_x"), ()),
-        (("gx", "gy", "gz"), ()),
-        (("accuracy", "x", "y", "z"), ()),
+        (("linear_acceleration.x", "linear_acceleration.y"), None),
+        (("ax", "ay", "az", "acc2_x"), None),
+        (("gx", "gy", "gz"), None),
+        (("accuracy", "x", "y", "z"), None),
     ],
 )
 def test_an_accelerometer_is_known_by_its_names(names, found) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from equipoise.app.arguments.inputs import fitted
-from equipoise.app.runs.map_keys import reading_keys, signed, unit_keys
+from equipoise.app.arguments.map_keys import reading_keys, signed, unit_keys
 from equipoise.assessment.hypotheses.inertial_unit import InertialUnit, inertial_unit
 from equipoise.assessment.hypotheses.number_table import NumberTable
 from equipoise.assessment.hypotheses.ranking import Ranked, TableReading, ranked

@@ -1,4 +1,4 @@
-"""A reading of an unknown table as the keys of a column map file."""
+"""A reading of an unknown table as the keys of a column map file, which `--columns` takes."""
 
 from collections.abc import Mapping
 from typing import Any
