@@ -67,6 +67,7 @@ def test_held_stays_held_in_a_search_along_the_boundary() -> None:
     assert inertia[2, 2] == pytest.approx(record.platform.inertia_P[2, 2], rel=1e-9)
 
 
+@thorough.whole  # behind a long gap, a spin is followed with damping in statistical
 def test_drag_over_many_turns_is_found() -> None:
     """Without the term from the start nothing is found: the heading runs away by radians."""
     record = labs.spun(1)

@@ -54,9 +54,9 @@ def test_real_record_is_explained_and_predicts() -> None:
 def test_known_defects_are_found_and_intervals_stay_honest() -> None:
     """A record or two each with contacts, slips, heading errors, and five defects at once."""
     kinds = {
+        "heading errors": (HEADING,),
         "contacts": (CONTACTS,),
         "steps": (COM_STEPS,),
-        "heading errors": (HEADING,),
         "together": defective_logs.TOGETHER,
     }
     for what in thorough.some(list(kinds), 1):
