@@ -20,6 +20,7 @@ from equipoise.io.recording.recording_file import read_recording, read_table
 from equipoise.io.toml.units import KINDS
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording
+from tests.support.fuzz_target import folder
 from tests.support.mutated_bytes import mutated
 from tests.support.recordings import (
     clock_guises,
@@ -93,17 +94,6 @@ def _options(rng: Draw, map_path: Path) -> ReadOptions:
     if kind < 0.95:
         return ReadOptions(dialect=_one(rng, tuple(DIALECTS)), bad_rows=share)
     return ReadOptions(body="Platform", bad_rows=share)
-
-
-@functools.cache
-def folder() -> Path:
-    """Return a folder of this process."""
-    return Path(_kept().name)
-
-
-@functools.cache
-def _kept() -> tempfile.TemporaryDirectory[str]:
-    return tempfile.TemporaryDirectory()
 
 
 @functools.cache

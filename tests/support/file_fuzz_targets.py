@@ -29,7 +29,7 @@ from tests.support.byte_captures import datagram_packet, pcap, pcapng, telemetry
 from tests.support.column_map_fuzz import mapped_table
 from tests.support.excel_files import RATE_SHEET, archive, workbook
 from tests.support.flight_logs import terminal
-from tests.support.fuzz_target import Target
+from tests.support.fuzz_target import Target, folder
 from tests.support.mat_files import mat_4, mat_73
 from tests.support.sample_logs import IMU, bag_1, bag_2_file, record, ulog
 from tests.support.sensor_units import CAMERA, unit
@@ -97,17 +97,6 @@ def at(suffix: str, read: Callable[[Path], object]) -> Callable[[bytes], None]:
             read(path)
 
     return take
-
-
-@functools.cache
-def folder() -> Path:
-    """Return a folder of this process."""
-    return Path(_kept().name)
-
-
-@functools.cache
-def _kept() -> tempfile.TemporaryDirectory[str]:
-    return tempfile.TemporaryDirectory()
 
 
 def written(suffix: str) -> Callable[[], bytes]:

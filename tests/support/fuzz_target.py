@@ -1,7 +1,10 @@
 """Something that takes any bytes, and raises nothing but what it declares."""
 
+import functools
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,3 +18,14 @@ class Target:
     valid: Callable[[], bytes]
     take: Callable[[bytes], None]
     share: float = 1.0
+
+
+@functools.cache
+def folder() -> Path:
+    """Return a folder of this process."""
+    return Path(_kept().name)
+
+
+@functools.cache
+def _kept() -> tempfile.TemporaryDirectory[str]:
+    return tempfile.TemporaryDirectory()

@@ -76,11 +76,16 @@ class ColumnMap:
     layout: Layout = Layout()
 
     @property
+    def sensed(self) -> tuple[Columns, ...]:
+        """Return the columns of clock, attitude and gyro."""
+        angles = None if self.euler is None else self.euler.columns
+        motion = (self.quaternion, angles, self.matrix, self.rotation_vector, self.rate)
+        return (*self.time, *(each for each in motion if each is not None))
+
+    @property
     def names(self) -> frozenset[str]:
         """Return every column that the map takes."""
-        angles = None if self.euler is None else self.euler.columns
-        groups = (*self.time, self.quaternion, angles, self.matrix, self.rotation_vector, self.rate,
-                  self.momentum, self.torque, self.field, self.temperature, self.lamp,
+        groups = (*self.sensed, self.momentum, self.torque, self.field, self.temperature, self.lamp,
                   self.accelerometer, self.sun)  # fmt: skip
         single = {each.column for each in (*self.masses, *self.devices)}
         return frozenset(single.union(*(each.names for each in groups if each is not None)))

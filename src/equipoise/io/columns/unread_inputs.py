@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns
+from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.table import Table
 from equipoise.model.errors import InputError
 from equipoise.model.unread_input import InputKind, UnreadInput
@@ -52,7 +52,7 @@ def kind_of(words: frozenset[str]) -> InputKind | None:
 
 def unread_inputs(table: Table, columns: ColumnMap) -> tuple[UnreadInput, ...]:
     """Return the columns of inputs that a map does not read and that change."""
-    names, common = _read_names(columns), _sensor_words(columns)
+    names, common = columns.names, _sensor_words(columns)
     read = _read_kinds(columns)
     found = [
         _changing(table, name, kind)
@@ -82,24 +82,9 @@ def _changing(table: Table, name: str, kind: InputKind) -> UnreadInput | None:
     return UnreadInput(name, kind, low, high) if high > low else None
 
 
-def _groups(columns: ColumnMap) -> list[Columns]:
-    """Return the columns of clock, attitude and gyro."""
-    angles = None if columns.euler is None else columns.euler.columns
-    sensed = (columns.quaternion, angles, columns.matrix, columns.rotation_vector, columns.rate)
-    return [*columns.time, *(each for each in sensed if each is not None)]
-
-
 def _sensor_words(columns: ColumnMap) -> frozenset[str]:
-    named = [words_of(name) for each in _groups(columns) for name in each.names]
+    named = [words_of(name) for each in columns.sensed for name in each.names]
     return frozenset[str]().union(*named)
-
-
-def _read_names(columns: ColumnMap) -> frozenset[str]:
-    others = (columns.momentum, columns.torque, columns.field, columns.temperature, columns.lamp,
-              columns.accelerometer, columns.sun)  # fmt: skip
-    groups = [*_groups(columns), *(each for each in others if each is not None)]
-    named = [each.column for each in (*columns.masses, *columns.devices)]
-    return frozenset([*named, *(name for each in groups for name in each.names)])
 
 
 def _read_kinds(columns: ColumnMap) -> frozenset[InputKind]:
