@@ -17,6 +17,7 @@ from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.documents.camera_file import read_camera_keys
 from equipoise.io.documents.manual_session import Piles, read_session
 from equipoise.io.documents.plan_file import read_plan
+from equipoise.io.files.file_content import Content
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.mcap.protobuf_fields import fields
 from equipoise.io.recording.recording_file import read_recording, write_recording
@@ -133,7 +134,7 @@ def recording(path: Path) -> None:
 def mcap(path: Path) -> None:
     """All that is in a record, and what is left of it."""
     content = path.read_bytes()
-    assert salvaged(content, "fuzz").lost_bytes <= len(content)
+    assert salvaged(Content.of(content, "log"), "fuzz").lost_bytes <= len(content)
     with contextlib.suppress(InputError):
         recording(path)
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from equipoise.io.files.file_content import Content
 from equipoise.io.formats.clock_units import PER_S
 from equipoise.io.mcap.log_messages import EVENT_TOPIC
 from equipoise.io.mcap.mcap_recording import time_zero
@@ -24,7 +25,7 @@ class RecordedEvent:
 
 def events_of(path: Path) -> tuple[RecordedEvent, ...]:
     """Return the events of a file, in order."""
-    found = salvaged(path.read_bytes(), str(path))
+    found = salvaged(Content.of(path.read_bytes(), "log"), str(path))
     zero = time_zero(found) or 0
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
     events = [each for each in found.messages if each.channel_id in ids]

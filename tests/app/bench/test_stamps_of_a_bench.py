@@ -21,6 +21,7 @@ from websockets.sync.client import connect
 from equipoise.app.bench.open_bench import KeptBench, Wanted
 from equipoise.hardware.bench.controller_process import DistantKeeper
 from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.io.files.file_content import Content
 from equipoise.io.mcap import foxglove_server
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.testbed.presets import read_preset
@@ -115,7 +116,7 @@ def number_of(message):
 
 
 def recorded_by(path):
-    found = salvaged(path.read_bytes(), str(path))
+    found = salvaged(Content.of(path.read_bytes(), "log"), str(path))
     (rate,) = (each.id for each in found.channels.values() if each.topic == "/rate")
     return {number_of(m.data): m.log_time for m in found.messages if m.channel_id == rate}
 

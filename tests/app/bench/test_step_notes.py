@@ -3,6 +3,7 @@
 import numpy as np
 
 from equipoise.app.bench.step_notes import noting
+from equipoise.io.files.file_content import Content
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.testbed.presets import read_preset
@@ -32,7 +33,7 @@ def test_a_step_is_noted_with_the_centre_of_mass_that_it_states(tmp_path):
     (event,) = (each for each in events_of(path) if each.kind == "step")
     assert event.sentence == STEP.sentence
     assert event.data == {"com_m": [1e-6, -2e-6, 3e-6], "sd_m": [1e-7, 2e-7, None]}
-    file = salvaged(path.read_bytes(), "run")
+    file = salvaged(Content.of(path.read_bytes(), "log"), "run")
     (scene,) = (c.id for c in file.channels.values() if c.topic == "/scene")
     assert sum(m.channel_id == scene for m in file.messages) >= 2  # at first, and after the step
 

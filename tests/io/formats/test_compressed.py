@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import zstandard
 
+from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from tests.support.broken_files import times_refused
@@ -117,13 +118,21 @@ def test_a_compressed_file_in_a_compressed_file_is_refused(tmp_path, outer, inne
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_what_unpacks_to_too_much_is_refused(tmp_path, monkeypatch, way):
-    """The limit is exact: one byte more is too much."""
-    content = CSV + b"\n" * 5000
-    monkeypatch.setattr("equipoise.io.formats.compressed.LARGEST", len(content))
-    assert len(read(tmp_path, WAYS[way](content)).rate) == 6
-    with pytest.raises(InputError, match="GiB once it is unpacked; wanted a shorter recording"):
-        read(tmp_path, WAYS[way](content + b"\n"))
+def test_what_unpacks_to_too_much_is_refused(tmp_path, way):
+    """A file of some kB that holds 300 MB; a person who states more memory has it read."""
+    path = tmp_path / "run.csv.gz"
+    path.write_bytes(WAYS[way](CSV + b"\n" * 300_000_000))
+    with pytest.raises(InputError, match=r"more than 256 MB once it is read.*--max-memory-mb 512"):
+        read_recording(path)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_person_may_state_more_memory_or_less(tmp_path, way):
+    path = tmp_path / "run.csv.gz"
+    path.write_bytes(WAYS[way](CSV + b"\n" * 500_000))
+    with pytest.raises(InputError, match=r"more than 400\.0 kB once it is read"):
+        read_recording(path, ReadOptions(max_memory=400_000))
+    assert len(read_recording(path, ReadOptions(max_memory=100_000_000)).rate) == 6
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.io.columns.column_map import Layout
+from equipoise.io.files.file_content import Content
 from equipoise.io.formats.xlsx_table import is_workbook, read_xlsx
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.model.errors import InputError
@@ -16,7 +17,7 @@ NUMBERS = np.array(RATE_SHEET[1:], dtype=float)
 
 
 def table(sheets):
-    return read_xlsx(workbook(sheets), "run.xlsx", Layout())
+    return read_xlsx(Content.of(workbook(sheets), "run.xlsx"), "run.xlsx", Layout())
 
 
 def test_a_workbook_is_read_to_the_last_digit(tmp_path):
@@ -85,7 +86,7 @@ def test_a_sheet_that_states_a_place_beyond_all_is_refused(monkeypatch):
     wide = f"{numbers.partition('<row')[0]}{wide}</sheetData></worksheet>"
     for xml in (late, wide):
         with pytest.raises(InputError, match=r"sheet 'run': found too many cells"):
-            read_xlsx(archive(parts({"run": xml})), "run.xlsx", Layout())
+            read_xlsx(Content.of(archive(parts({"run": xml})), "run.xlsx"), "run.xlsx", Layout())
 
 
 def test_without_openpyxl_the_sentence_names_the_extra(tmp_path, monkeypatch):
@@ -102,9 +103,11 @@ def test_a_text_under_the_name_of_a_workbook_is_read(tmp_path):
 
 
 def test_an_archive_is_no_workbook():
-    assert not is_workbook(archive({"xl/notes.txt": "xl/workbook.xml is not here"}))
-    assert is_workbook(workbook({"run": RATE_SHEET}))
-    assert is_workbook(workbook({"run": RATE_SHEET})[:-40])
+    assert not is_workbook(
+        Content.of(archive({"xl/notes.txt": "xl/workbook.xml is not here"}), "run")
+    )
+    assert is_workbook(Content.of(workbook({"run": RATE_SHEET}), "run"))
+    assert is_workbook(Content.of(workbook({"run": RATE_SHEET})[:-40], "run"))
 
 
 @pytest.mark.parametrize("part", sorted(parts({"run": ""})))

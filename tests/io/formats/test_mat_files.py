@@ -11,6 +11,7 @@ import pytest
 
 from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.files.file_content import Content
 from equipoise.io.formats.mat_table import read_mat
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.model.errors import InputError
@@ -31,7 +32,7 @@ WITH_STRUCTURES = [name for name in VERSIONS if name != "4"]
 
 
 def table(content: bytes):
-    return read_mat(content, "run.mat")
+    return read_mat(Content.of(content, "run.mat"), "run.mat")
 
 
 def mapped(**columns: tuple[str, ...]) -> ReadOptions:

@@ -11,6 +11,7 @@ from rosbags.rosbag1 import Writer as Writer1
 from scipy.io import savemat
 
 from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.files.file_content import Content
 from equipoise.io.logs.ulog_file import ulog_topics
 from equipoise.io.recording.format_registry import FORMATS
 from equipoise.io.recording.recording_file import read_recording, write_recording
@@ -125,7 +126,7 @@ def test_what_has_neither_topics_nor_instances_has_none_to_choose(tmp_path, suff
 @pytest.mark.parametrize("rates", ["vehicle_angular_velocity", "sensor_combined"])
 def test_pyulog_finds_the_same_rows(rates):
     theirs = ULog(io.BytesIO(ulog(rates)))
-    ours = ulog_topics(ulog(rates))
+    ours = ulog_topics(Content.of(ulog(rates), "log"))
     for topic in ("vehicle_attitude", rates):
         wanted = theirs.get_dataset(topic).data
         found = ours.columns(topic)
@@ -139,7 +140,7 @@ def test_a_broken_place_of_a_log_costs_the_rows_up_to_the_next_sync():
     whole, sync = ulog("sensor_combined"), bytes.fromhex("0800532f731320250cbb12")
     at = [k for k in range(len(whole)) if whole.startswith(struct.pack("<HBH", 34, 68, 0), k)]
     garbled = whole[: at[2]] + bytes(37) + whole[at[2] + 37 : at[4]] + sync + whole[at[4] :]
-    found = ulog_topics(garbled)
+    found = ulog_topics(Content.of(garbled, "log"))
     assert found.broken == 1
     times = found.columns("vehicle_attitude")["timestamp_sample"]
     np.testing.assert_array_equal(times, [5_000_000, 5_100_000, 5_400_000])

@@ -9,6 +9,7 @@ import pytest
 from pymavlink.DFReader import DFReader_binary
 
 from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.files.file_content import Content
 from equipoise.io.logs.dataflash_log import messages_of
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.model.errors import InputError
@@ -111,7 +112,7 @@ def test_pymavlink_finds_the_same_rows(tmp_path):
     """What another library reads in the same bytes."""
     path = tmp_path / "run.bin"
     path.write_bytes(flight("ATT", "IMU", "XKQ", "AHR2", "GYR"))
-    ours = messages_of(path.read_bytes())
+    ours = messages_of(Content.of(path.read_bytes(), "log"))
     names = {each.name: number for number, each in ours.layouts.items()}
     count = 0
     with DFReader_binary(os.fspath(path), zero_time_base=True) as theirs:

@@ -8,6 +8,7 @@ from importlib import resources
 import numpy as np
 import pytest
 
+from equipoise.io.files.file_content import Content
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.testbed.presets import read_preset
@@ -33,7 +34,7 @@ def scenes(folder, *said, bed=BED):
                 file.rows(each)
             else:
                 file.event(*each)
-    found = salvaged(path.read_bytes(), "run")
+    found = salvaged(Content.of(path.read_bytes(), "log"), "run")
     (channel,) = (c for c in found.channels.values() if c.topic == "/scene")
     schema = found.schemas[channel.schema_id]
     assert schema.name == "foxglove.SceneUpdate"
@@ -142,7 +143,7 @@ def test_the_layout_that_is_shipped_shows_topics_and_fields_that_there_are(tmp_p
     path = tmp_path / "run.mcap"
     with LiveRecording(path, Opening(10**18, "", BED)):
         pass
-    found = salvaged(path.read_bytes(), "run")
+    found = salvaged(Content.of(path.read_bytes(), "log"), "run")
     topics = {c.topic: found.schemas[c.schema_id] for c in found.channels.values()}
     panels = layout["configById"]
     series = [each["value"] for panel in panels.values() for each in panel.get("paths", [])]

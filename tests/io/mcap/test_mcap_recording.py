@@ -18,6 +18,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.writer import Writer
 
+from equipoise.io.files.file_content import Content
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.mcap.protobuf_fields import double, fields, whole
@@ -106,7 +107,7 @@ def test_a_file_cut_anywhere_gives_what_is_before_the_cut(tmp_path):
     content, before, step = written(), 0, thorough.count(3, 8)
     data = content.rindex(b"\x0f\x04" + bytes(7))
     for end in (*range(0, data, step), *range(data, len(content), 27), len(content)):
-        found = salvaged(content[:end], "cut")
+        found = salvaged(Content.of(content[:end], "log"), "cut")
         assert len(found.messages) >= before
         assert found.whole == (end == len(content))
         before = len(found.messages)
@@ -115,7 +116,7 @@ def test_a_file_cut_anywhere_gives_what_is_before_the_cut(tmp_path):
         try:
             assert_part_of(read_bytes_as(content[:end], tmp_path), record())
         except InputError:
-            assert len(salvaged(content[:end], "cut").messages) < 30
+            assert len(salvaged(Content.of(content[:end], "log"), "cut").messages) < 30
 
 
 @settings(max_examples=EXAMPLES // 3, deadline=None)
@@ -125,7 +126,7 @@ def test_a_garbled_place_costs_two_chunks_at_most(place, junk):
     content = written()
     at = int(place * len(content))
     garbled = content[:at] + junk + content[at + len(junk) :]
-    assert len(salvaged(garbled, "garbled").messages) >= 60 - 2 * 10
+    assert len(salvaged(Content.of(garbled, "log"), "garbled").messages) >= 60 - 2 * 10
     with tempfile.TemporaryDirectory() as folder:
         in_the_start = at < content.index(b"zstd")  # where the zero of time stands
         with contextlib.suppress(*[InputError] * in_the_start):
@@ -138,7 +139,7 @@ def test_a_garbled_chunk_is_reported_with_the_number_of_lost_messages(tmp_path):
     spots = [k for k in range(len(file_bytes)) if file_bytes.startswith(b"\x04\0\0\0zstd", k)]
     at = spots[2] + 60
     garbled = file_bytes[:at] + bytes(20) + file_bytes[at + 20 :]
-    found = salvaged(garbled, "garbled")
+    found = salvaged(Content.of(garbled, "log"), "garbled")
     assert (found.ended, found.whole, found.lost_places) == (True, False, 1)
     assert found.lost_messages == 60 - len(found.messages) == 10
     note = " ".join(read_bytes_as(garbled, tmp_path).notes)

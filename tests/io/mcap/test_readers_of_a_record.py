@@ -18,6 +18,7 @@ import zstandard
 from mcap.exceptions import McapError
 from mcap.reader import NonSeekingReader, make_reader
 
+from equipoise.io.files.file_content import Content
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.mcap.mcap_repair import repair
 from equipoise.io.mcap.mcap_salvage import salvaged
@@ -108,7 +109,7 @@ def by_message_index(content):
 
 
 def by_us(content):
-    found = salvaged(content, "record")
+    found = salvaged(Content.of(content, "log"), "record")
     return sorted((found.channels[m.channel_id].topic, m.log_time, m.data) for m in found.messages)
 
 
@@ -210,7 +211,7 @@ def test_a_record_that_is_not_closed_has_no_summary(tmp_path):
         file.rows(rows(k))
         file.turn(k / 2 + 0.5)
     content = path.read_bytes()
-    assert not salvaged(content, "run").ended
+    assert not salvaged(Content.of(content, "log"), "run").ended
     assert one_by_one(content) == by_us(content)
     assert len(by_us(content)) == len(wanted()) - 2 * CHUNKS  # no events
     file.close()

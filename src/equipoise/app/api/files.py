@@ -45,6 +45,7 @@ def read_recording(
     body: str | None = None,
     instance: int | None = None,
     bad_rows: float = BAD_ROWS,
+    max_memory_mb: float | None = None,
     start: float | None = None,
     end: float | None = None,
 ) -> Recording:
@@ -67,6 +68,8 @@ def read_recording(
         Which of a log's sensors of one kind to take, counted from 0.
     bad_rows
         Share of the rows that may be left out as faulty; with more the file is refused.
+    max_memory_mb
+        What reading the file may take, in MB. None: 64 times the file, at least 256, at most 2000.
     start
         Leave out what is before this time, s. None: keep it; verbs then leave out what a bench's
         own recording has from before the platform was let go.
@@ -80,7 +83,9 @@ def read_recording(
         times that leave fewer than three rows.
     """
     named = None if columns is None else str(columns)
-    reading = Reading(None, None, dialect, named, tuple(topics), body, instance, bad_rows)
+    reading = Reading(
+        None, None, dialect, named, tuple(topics), body, instance, bad_rows, max_memory_mb
+    )
     recording = recording_file.read_recording(path, read_options(reading))
     if start is None and end is None:
         return recording

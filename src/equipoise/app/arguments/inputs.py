@@ -14,6 +14,7 @@ from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.documents.plan_file import read_plan
+from equipoise.io.files.reading_budget import MB
 from equipoise.io.recording.frame_check import check_frame
 from equipoise.io.recording.recording_file import check_names, read_recording
 from equipoise.io.testbed.presets import preset_names, preset_text, read_preset
@@ -106,9 +107,12 @@ def read_options(reading: "Reading", dashes: str = "") -> ReadOptions:
     if reading.dialect is not None and reading.columns is not None:
         raise InputError(f"{dashes}dialect and {dashes}columns", "both", "one of them")
     share(f"{dashes}bad{'-' if dashes else '_'}rows", reading.bad_rows)
+    option = f"{dashes}max{'-' if dashes else '_'}memory{'-' if dashes else '_'}mb"
+    stated = positive(option, reading.max_memory_mb)
     columns = None if reading.columns is None else read_column_map(reading.columns)
+    memory = None if stated is None else int(stated * MB)
     return ReadOptions(reading.dialect, columns, reading.topic, reading.body, reading.instance,
-                       reading.bad_rows)  # fmt: skip
+                       reading.bad_rows, memory)  # fmt: skip
 
 
 def fitted(recording: Recording, testbed: Testbed) -> Recording:

@@ -99,6 +99,9 @@ class Reading:
         Which of a log's sensors of one kind to take, counted from 0.
     bad_rows
         Share of the rows that may be left out as faulty; with more the file is refused.
+    max_memory_mb
+        What reading a file may take, in MB. Left out: 64 times the file, at least 256, at most
+        2000.
     """
 
     from_s: float | None = None
@@ -109,6 +112,7 @@ class Reading:
     body: str | None = None
     instance: Whole | None = None
     bad_rows: float = BAD_ROWS
+    max_memory_mb: float | None = None
 
     @property
     def whole(self) -> "Reading":

@@ -171,7 +171,7 @@ def opened(session: Session, bed: Testbed, requested: Session, where: str) -> Fi
 def recording_of(each: Round, bed: Testbed, where: str) -> Recording:
     """Return the recording of a round; it must be the one that was used then."""
     reading = Reading(each.from_s, each.to_s, each.dialect, each.columns, tuple(each.topic),
-                      each.body, each.instance, each.bad_rows)  # fmt: skip
+                      each.body, each.instance, each.bad_rows, each.max_memory_mb)  # fmt: skip
     recording = fitting_recording_of(each.recording, reading, bed)
     if each.sha256 and recording.sha256 != each.sha256:
         wanted = "the recording as it was when it was added"
@@ -184,7 +184,7 @@ def with_recording(filed: Filed, file: str, reading: Reading) -> Filed:
     added = Round(recording=file, from_s=reading.from_s, to_s=reading.to_s,
                   dialect=reading.dialect, columns=reading.columns, topic=list(reading.topic),
                   body=reading.body, instance=reading.instance, bad_rows=reading.bad_rows,
-                  placed=None)  # fmt: skip
+                  max_memory_mb=reading.max_memory_mb, placed=None)  # fmt: skip
     recording = recording_of(added, filed.testbed, file)
     for k, each in enumerate(filed.recordings, 1):
         if each.sha256 == recording.sha256:

@@ -16,6 +16,7 @@ class ReadOptions:
     body: str | None = None  # of a motion-capture export
     instance: int | None = None  # of a log's sensors of one kind, counted from 0
     bad_rows: float = BAD_ROWS  # share of the rows
+    max_memory: int | None = None  # bytes that reading may take; None: by the file's size
 
     @property
     def layout(self) -> Layout:

@@ -39,6 +39,7 @@ class Round(Table):
     body: str | None = None
     instance: int | None = None
     bad_rows: float = BAD_ROWS
+    max_memory_mb: float | None = None
     placed: list[str] | None = Field(None, description="such as '3 x washer at deck:I6'")
 
 

@@ -1,7 +1,12 @@
-"""Read a file's bytes or text, with a sentence for everything that can be wrong with it."""
+"""Read a file's bytes or text, with a sentence for everything that can be wrong with it.
 
+Only regular files are read: a pipe may never end, a device gives what nobody asked for.
+"""
+
+import os
+import stat
+from io import BufferedReader
 from pathlib import Path
-from typing import BinaryIO
 
 from equipoise.io.files.file_marks import binary_text
 from equipoise.model.errors import InputError
@@ -10,28 +15,50 @@ TEXT_CONTROL = frozenset(b"\t\n\r\f")
 MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 PDF = b"%PDF-"  # begins as a text does
 SAMPLE = 4096  # bytes examined to distinguish text from binary; chosen: several lines of any table
+LARGEST = 64_000_000  # bytes of a document or a picture (chosen)
+KINDS = (
+    (stat.S_ISDIR, "a directory"),
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a disk"),
+)
 
 
-def open_bytes(path: str | Path, wanted: str) -> BinaryIO:
-    """Return a file open for its bytes; ``wanted`` says what kind of file should be there."""
+def open_bytes(path: str | Path, wanted: str) -> BufferedReader:
+    """Return a regular file open for its bytes; ``wanted`` says what kind should be there."""
     file = Path(path)
-    if file.is_dir():
-        raise InputError(str(path), "a directory", wanted)
     try:
+        mode = file.stat().st_mode
+        kind = next((name for is_kind, name in KINDS if is_kind(mode)), None)
+        if kind is not None:
+            raise InputError(str(path), kind, wanted)
         return file.open("rb")
     except FileNotFoundError as error:
         raise InputError(str(path), "no such file", wanted) from error
-    except OSError as error:
-        raise InputError(str(path), error.strerror or str(error), wanted) from error
+    except (OSError, ValueError) as error:  # a name with a zero in it is no OSError
+        found = error.strerror if isinstance(error, OSError) else None
+        raise InputError(str(path), found or str(error), wanted) from error
 
 
-def read_bytes(path: str | Path, wanted: str) -> bytes:
-    """Return the file's bytes; ``wanted`` says what kind of file should have been there."""
+def size_of(file: BufferedReader) -> int:
+    """Return how many bytes an open file has."""
+    return os.fstat(file.fileno()).st_size
+
+
+def read_bytes(path: str | Path, wanted: str, most: int = LARGEST) -> bytes:
+    """Return the file's bytes; ``wanted`` says what kind of file should have been there.
+
+    InputError if there are more than ``most``.
+    """
     with open_bytes(path, wanted) as file:
         try:
-            content = file.read()
+            content = file.read(most + 1)
         except OSError as error:
             raise InputError(str(path), error.strerror or str(error), wanted) from error
+    if len(content) > most:
+        found = f"more than {most / 1e6:g} MB"
+        raise InputError(str(path), found, f"{wanted}, of {most / 1e6:g} MB at most")
     if not content.strip():
         raise InputError(str(path), "an empty file", wanted)
     return content

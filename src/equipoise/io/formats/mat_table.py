@@ -13,6 +13,7 @@ from typing import Any, cast
 from scipy.io import savemat
 
 from equipoise.io.columns.table import Numbers, Table, finite
+from equipoise.io.files.file_content import Content
 from equipoise.io.formats.matlab.mat_variables import Array, listed, table_columns
 from equipoise.io.formats.matlab.mat_version_4 import is_version_4, variables_4
 from equipoise.io.formats.matlab.mat_version_5 import variables_5
@@ -28,10 +29,10 @@ WANTED = (
 )
 
 
-def read_mat(content: bytes, source: str) -> Table:
+def read_mat(content: Content, source: str) -> Table:
     """Return the table in a MAT file's bytes."""
     try:
-        variables = _variables(content, source)
+        variables = _variables(content.whole(), source)
     except ValueError as error:
         raise InputError(source, f"a broken MAT file ({error})", WANTED) from error
     columns, notes = table_columns(variables)

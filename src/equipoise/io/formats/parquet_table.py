@@ -12,17 +12,18 @@ from typing import Any
 import numpy as np
 
 from equipoise.io.columns.table import Numbers, Table, finite
+from equipoise.io.files.file_content import Content
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
 MAGIC = b"PAR1"  # a Parquet file begins and ends with it
 
 
-def read_parquet(content: bytes, source: str) -> Table:
+def read_parquet(content: Content, source: str) -> Table:
     """Return the table in a Parquet file's bytes."""
     parquet = _pyarrow("pyarrow.parquet", source)
     try:
-        arrow = parquet.read_table(io.BytesIO(content))
+        arrow = parquet.read_table(content.from_start())
         names = tuple(arrow.column_names)
     except (OSError, ValueError) as error:
         raise InputError(source, "broken Parquet", "a whole Parquet file") from error

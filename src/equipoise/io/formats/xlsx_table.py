@@ -4,7 +4,6 @@ Format (public: ECMA-376, Office Open XML): a zip archive of XML, read by openpy
 imported when a workbook is met and not before.
 """
 
-import io
 import itertools
 import warnings
 import zipfile
@@ -14,7 +13,8 @@ from typing import Any
 
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.table import Table
-from equipoise.io.formats.compressed import LARGEST, ZIP
+from equipoise.io.files.file_content import Content
+from equipoise.io.formats.compressed import ZIP
 from equipoise.io.formats.csv_table import table_of
 from equipoise.io.formats.header_rows import is_number
 from equipoise.io.formats.optional_libraries import extra_library
@@ -29,25 +29,25 @@ FEWEST = 2  # rows of two numbers that make a sheet a table (chosen)
 Rows = list[list[str]]
 
 
-def is_workbook(content: bytes) -> bool:
+def is_workbook(content: Content) -> bool:
     """Say whether a file's bytes are those of a workbook, whole or cut."""
     if not content.startswith(ZIP):
         return False
     try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        with zipfile.ZipFile(content.from_start()) as archive:
             return WORKBOOK in archive.namelist()
     except Exception:  # a broken archive has no list, but the names stand before its members
-        return WORKBOOK.encode() in content
+        return content.find(WORKBOOK.encode()) >= 0
 
 
-def read_xlsx(content: bytes, source: str, layout: Layout) -> Table:
+def read_xlsx(content: Content, source: str, layout: Layout) -> Table:
     """Return the table in a workbook's bytes; InputError if it is broken or holds none."""
     library = extra_library("openpyxl", source, "an Excel workbook", "excel", INSTEAD)
     try:
         with warnings.catch_warnings():  # of what openpyxl leaves aside: styles, pictures
             warnings.simplefilter("ignore")
-            _check_size(content, source)
-            book = library.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
+            _check_size(content)
+            book = library.load_workbook(content.from_start(), read_only=True, data_only=True)
             name, rows, lines = _sheet(book, source)
     except EquipoiseError:
         raise
@@ -60,12 +60,11 @@ def read_xlsx(content: bytes, source: str, layout: Layout) -> Table:
     return replace(table, notes=(*table.notes, note)) if others else table
 
 
-def _check_size(content: bytes, source: str) -> None:
+def _check_size(content: Content) -> None:
     """Raise InputError if a workbook is too large once it is unpacked."""
-    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+    with zipfile.ZipFile(content.from_start()) as archive:
         size = sum(member.file_size for member in archive.infolist())
-    if size > LARGEST:
-        raise InputError(source, f"a workbook of {size} bytes once unpacked", "a smaller one")
+    content.meter.check(size)
 
 
 def _sheet(book: Any, source: str) -> tuple[str, Rows, list[int]]:

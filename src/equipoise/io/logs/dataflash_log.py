@@ -28,6 +28,7 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
+from equipoise.io.files.file_content import Content
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -83,7 +84,7 @@ class Messages:
     broken: int = 0  # places that made no sense
 
 
-def read_dataflash(content: bytes, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
+def read_dataflash(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
     log = messages_of(content)
     damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
@@ -91,7 +92,7 @@ def read_dataflash(content: bytes, source: str, options: ReadOptions) -> tuple[T
     return log_table(source, channels, None, (*damaged, *notes)), flight_map(channels)
 
 
-def messages_of(content: bytes) -> Messages:
+def messages_of(content: Content) -> Messages:
     """Return the messages of a log, broken ones left out."""
     found, at = Messages({LAYOUT: Layout("FMT", LAYOUT_BYTES, ())}), 0
     while at + HEAD <= len(content):

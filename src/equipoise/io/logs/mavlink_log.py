@@ -14,7 +14,6 @@ message that came soonest. Some messages count from boot, others from 1970; cloc
 a second are one. Where the vehicle began anew, the times of arrival count for all.
 """
 
-import io
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -25,6 +24,7 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
+from equipoise.io.files.file_content import Content
 from equipoise.io.formats.clock_units import PER_MS, PER_S, PER_US, nanoseconds
 from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.io.logs.flight_axes import flight_map
@@ -74,7 +74,7 @@ class Telemetry:
         return next(iter((*beating, *self.messages, *self.counts)), None)
 
 
-def read_tlog(content: bytes, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
+def read_tlog(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
     log = telemetry_of(content, source)
     vehicle = log.vehicle
@@ -93,11 +93,11 @@ def read_tlog(content: bytes, source: str, options: ReadOptions) -> tuple[Table,
     return log_table(source, channels, None, notes), flight_map(channels)
 
 
-def telemetry_of(content: bytes, source: str) -> Telemetry:
+def telemetry_of(content: Content, source: str) -> Telemetry:
     """Return the messages of a log, broken ones left out."""
     dialect = extra_library("pymavlink.dialects.v20.common", source, "a log", "mavlink")
     parser, found = dialect.MAVLink(None), Telemetry({}, {}, {})
-    for piece in tlog_pieces(io.BytesIO(content)):
+    for piece in tlog_pieces(content.from_start()):
         if piece.broken or piece.t is None:
             found.broken += 1
             continue

@@ -12,6 +12,7 @@ from typing import Any
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
+from equipoise.io.files.file_content import Content
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.logs.log_sources import Source, chosen
 from equipoise.io.logs.log_table import log_map, log_table
@@ -24,7 +25,7 @@ FOLDER_MARK = "metadata.yaml"  # of a ROS 2 bag's folder
 SUFFIXES = {ROS_1: ".bag", ROS_2: ".db3"}
 
 
-def read_bag(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, ColumnMap]:
+def read_bag(path: Path, content: Content, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a bag's rows and what they mean; InputError if it is broken or holds none."""
     suffix = next((s for mark, s in SUFFIXES.items() if content.startswith(mark)), "")
     try:
@@ -33,7 +34,7 @@ def read_bag(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, C
         else:  # the library goes by the name's suffix, we by what is in it
             with tempfile.TemporaryDirectory() as folder:
                 copy = Path(folder) / f"bag{suffix or path.suffix}"
-                copy.write_bytes(content)
+                copy.write_bytes(content.whole())
                 sources = _sources(copy)
     except EquipoiseError:
         raise

@@ -41,6 +41,7 @@ from numpy.typing import NDArray
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
+from equipoise.io.files.file_content import Content
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -80,7 +81,7 @@ Column = tuple[str, str]  # name, type of NumPy
 Instance = tuple[str, int]  # of a topic
 
 
-def read_ulog(content: bytes, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
+def read_ulog(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
     log = ulog_topics(content)
     damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
@@ -130,11 +131,11 @@ class UlogTopics:
         return {name: table[f"c{k}"] for k, (name, _) in enumerate(flat)}
 
 
-def ulog_topics(content: bytes) -> UlogTopics:
+def ulog_topics(content: Content) -> UlogTopics:
     """Return the topics of a file that begins as a ULog does."""
     found, at = UlogTopics(), HEADER
     while at + 3 <= len(content):
-        size, kind = struct.unpack_from("<HB", content, at)
+        size, kind = struct.unpack("<HB", content[at : at + 3])
         if kind not in KINDS or at + 3 + size > len(content):
             found.broken += 1
             place = content.find(SYNC, at)

@@ -21,6 +21,7 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
+from equipoise.io.files.file_content import Content
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -93,10 +94,10 @@ def is_vectornav(content: bytes) -> bool:
     return BEGINNING.search(content[:SAMPLE]) is not None
 
 
-def read_vectornav(content: bytes, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
+def read_vectornav(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none, or no clock."""
     lines = Lines()
-    for line in content.splitlines():
+    for line in content.whole().splitlines():
         lines.take(line)
     _check_timed(lines, source)
     notices = (

@@ -16,6 +16,7 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
+from equipoise.io.files.file_content import Content
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
 from equipoise.io.logs.log_sources import chosen, refuse_choice
 from equipoise.io.logs.log_table import LogChannel, log_map, log_table
@@ -37,7 +38,7 @@ from equipoise.model.recording import CHANNELS, Recording, rows_between
 SLICE = 2.0  # s to a chunk of a file that is written in one go (chosen: what a broken byte costs)
 
 
-def read_mcap(content: bytes, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
+def read_mcap(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return an MCAP file's rows and what they mean; InputError if there are none."""
     found = salvaged(content, source)
     notes = loss_notes(found)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.files.atomic_file import write_whole
-from equipoise.io.files.source_file import read_bytes
+from equipoise.io.files.file_content import opened
 from equipoise.io.formats.clock_units import PER_S
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.mcap_recording import time_zero
@@ -34,7 +34,8 @@ def repair(path: str | Path, out: str | Path) -> Repaired:
 
     A file that is whole and has an index is left as it is.
     """
-    found = salvaged(read_bytes(path, WANTED), str(path))
+    with opened(path, WANTED) as content:
+        found = salvaged(content, str(path))
     if not found.messages:
         raise InputError(str(path), "no whole message", WANTED)
     done = _repaired(found)

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from io import BytesIO
 from typing import Any
 
+from equipoise.io.files.file_content import Content
 from equipoise.io.formats.optional_libraries import log_library
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -62,7 +63,7 @@ class Salvage:
         return max(counted - len(self.messages), 0) or self.orphans
 
 
-def salvaged(content: bytes, source: str) -> Salvage:
+def salvaged(content: Content, source: str) -> Salvage:
     """Return all that can be read; broken content is counted and never raises."""
     reading = _Reading(content, source)
     found = Salvage()
@@ -112,8 +113,8 @@ def _count(record: Any, found: Salvage) -> None:
 class _Reading:
     """A walk through a file's bytes that goes on behind what is broken."""
 
-    def __init__(self, content: bytes, source: str) -> None:
-        self._content = content
+    def __init__(self, content: Content, source: str) -> None:
+        self._content = content.whole()
         self._records = log_library("mcap.records", source)
         self._stream = log_library("mcap.data_stream", source).ReadDataStream
         self._breakup = log_library("mcap.stream_reader", source).breakup_chunk

@@ -4,7 +4,8 @@ A file is known by its first bytes; by its suffix only where those say nothing, 
 that is compressed is what is inside it.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +14,9 @@ from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.atomic_file import whole_file, write_whole
-from equipoise.io.files.source_file import read_bytes, text_of
+from equipoise.io.files.file_content import Content, opened, sha256_of
+from equipoise.io.files.reading_budget import Budget
+from equipoise.io.files.source_file import text_of
 from equipoise.io.formats.compressed import KINDS, ZIP, unpacked
 from equipoise.io.formats.csv_table import csv_text, cut
 from equipoise.io.formats.mat_table import MAGIC as MAT
@@ -38,13 +41,14 @@ from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 
+BEGINNING = 4096  # bytes by which a file is known (chosen)
 WANTED = (
     "a recording (CSV, Excel, Parquet, MCAP, MAT, a bag of ROS, or a log of a flight controller)"
 )
 # The map is None where the header says what columns are.
-Read = Callable[[Path, bytes, ReadOptions], tuple[Table, ColumnMap | None]]
+Read = Callable[[Path, Content, ReadOptions], tuple[Table, ColumnMap | None]]
 Write = Callable[[Recording, Path], None]
-Begins = Callable[[bytes], bool]
+Begins = Callable[[bytes], bool]  # of a file's first BEGINNING bytes
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,22 +62,44 @@ class Format:
     write: Write | None  # None: it is read only
 
 
-def content_of(path: Path) -> bytes:
-    """Return a file's bytes; of a bag that is a folder those of its files, in order of name."""
-    if not (path / FOLDER_MARK).is_file():
-        return read_bytes(path, WANTED)
-    return b"".join(each.read_bytes() for each in sorted(path.iterdir()) if each.is_file())
+@contextmanager
+def content_of(path: Path, memory: int | None = None) -> Generator[Content]:
+    """Lend a file's bytes; of a bag that is a folder those of the file that marks it.
+
+    ``memory``: bytes that reading may take; None: as the file's size has it.
+    """
+    with opened(path / FOLDER_MARK if is_bag_folder(path) else path, WANTED, Budget(memory)) as it:
+        yield it
 
 
-def format_of(path: Path, content: bytes) -> Format:
+def digest(path: Path, content: Content) -> str:
+    """Return the SHA-256 of what was read, in hex; of a folder that of its files, by name."""
+    if not is_bag_folder(path):
+        return content.sha256()
+    parts = sorted(each for each in path.iterdir() if each.is_file())
+    return sha256_of(block for each in parts for block in _blocks(each))
+
+
+def _blocks(path: Path) -> Iterator[bytes]:
+    with opened(path, WANTED) as content:
+        yield from content.blocks()
+
+
+def is_bag_folder(path: Path) -> bool:
+    """Say whether a path is the folder of a bag of ROS 2."""
+    return (path / FOLDER_MARK).is_file()
+
+
+def format_of(path: Path, content: Content) -> Format:
     """Return the format of a file: by its first bytes, then by its suffix; else it is a text."""
     return BAG if path.is_dir() else _format(path.suffix.lower(), content)
 
 
-def _format(suffix: str, content: bytes) -> Format:
-    if content.startswith(tuple(KINDS)) and not is_workbook(content):
+def _format(suffix: str, content: Content) -> Format:
+    beginning = content[:BEGINNING]
+    if beginning.startswith(tuple(KINDS)) and not is_workbook(content):
         return COMPRESSED
-    marked = [each for each in FORMATS if each.begins is not None and each.begins(content)]
+    marked = [each for each in FORMATS if each.begins is not None and each.begins(beginning)]
     named = [each for each in FORMATS if suffix in each.suffixes]
     return next(iter((*marked, *named)), FORMATS[0])
 
@@ -94,9 +120,9 @@ def _with(*marks: bytes) -> Begins:
     return lambda content: content.startswith(marks)
 
 
-def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+def _read_text(path: Path, content: Content, options: ReadOptions) -> tuple[Table, None]:
     refuse_choice(options, str(path), "a table")
-    text, source, layout = text_of(content, path, WANTED), str(path), options.layout
+    text, source, layout = text_of(content.whole(), path, WANTED), str(path), options.layout
     if path.suffix.lower() == ".toml":
         wanted = f"{WANTED}; a testbed is given as --testbed {path}"
         raise InputError(source, "a TOML file, as a testbed is", wanted)
@@ -106,11 +132,12 @@ def _read_text(path: Path, content: bytes, options: ReadOptions) -> tuple[Table,
 
 
 def _read_inside(
-    path: Path, content: bytes, options: ReadOptions
+    path: Path, content: Content, options: ReadOptions
 ) -> tuple[Table, ColumnMap | None]:
     """Return the table in the file that a compressed one holds."""
     suffixes = tuple(suffix for each in FORMATS for suffix in each.suffixes)
-    name, inside = unpacked(content, path, suffixes)
+    name, data = unpacked(content, path, suffixes)
+    inside = content.inner(data)
     kind = _format(Path(name).suffix.lower(), inside)
     if kind is COMPRESSED:
         found = f"a compressed file in a compressed file ('{name}')"
@@ -118,23 +145,23 @@ def _read_inside(
     return kind.read(path, inside, options)
 
 
-def _read_workbook(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+def _read_workbook(path: Path, content: Content, options: ReadOptions) -> tuple[Table, None]:
     if not is_workbook(content):  # some programs write a text under such a name
         return _read_text(path, content, options)
     return read_xlsx(content, str(path), options.layout), None
 
 
-def _table(read: Callable[[bytes, str], Table]) -> Read:
+def _table(read: Callable[[Content, str], Table]) -> Read:
     """Return how a table is read whose columns its header explains."""
 
-    def reading(path: Path, content: bytes, options: ReadOptions) -> tuple[Table, None]:
+    def reading(path: Path, content: Content, options: ReadOptions) -> tuple[Table, None]:
         refuse_choice(options, str(path), "a table")
         return read(content, str(path)), None
 
     return reading
 
 
-def _log(read: Callable[[bytes, str, ReadOptions], tuple[Table, ColumnMap]]) -> Read:
+def _log(read: Callable[[Content, str, ReadOptions], tuple[Table, ColumnMap]]) -> Read:
     """Return how a log is read, which says itself what its columns are."""
     return lambda path, content, options: read(content, str(path), options)
 

@@ -1,6 +1,5 @@
 """Recording files, both ways, ours and other programs'; ``format_registry`` lists the kinds."""
 
-import hashlib
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,7 +11,7 @@ from equipoise.io.columns.table import Table
 from equipoise.io.columns.text_times import with_times_as_numbers
 from equipoise.io.dialects.dialects import detect, dialect_map
 from equipoise.io.recording.build_recording import recording_of
-from equipoise.io.recording.format_registry import content_of, format_of, format_to_write
+from equipoise.io.recording.format_registry import content_of, digest, format_of, format_to_write
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import CHANNELS, Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -23,16 +22,16 @@ def read_recording(path: str | Path, options: ReadOptions = AS_IT_IS) -> Recordi
 
     InputError says what cannot be used.
     """
-    content = content_of(Path(path))
-    table, known = format_of(Path(path), content).read(Path(path), content, options)
-    recording = recording_from(table, _columns(table, known, options), options.bad_rows)
-    return replace(recording, sha256=hashlib.sha256(content).hexdigest())
+    with content_of(Path(path), options.max_memory) as content:
+        table, known = format_of(Path(path), content).read(Path(path), content, options)
+        recording = recording_from(table, _columns(table, known, options), options.bad_rows)
+        return replace(recording, sha256=digest(Path(path), content))
 
 
 def read_table(path: str | Path, options: ReadOptions = AS_IT_IS) -> tuple[Table, ColumnMap | None]:
     """Return the table in a file, and what its columns mean where the file itself says so."""
-    content = content_of(Path(path))
-    return format_of(Path(path), content).read(Path(path), content, options)
+    with content_of(Path(path), options.max_memory) as content:
+        return format_of(Path(path), content).read(Path(path), content, options)
 
 
 def recording_from(table: Table, columns: ColumnMap, bad_rows: float) -> Recording:

@@ -1,0 +1,72 @@
+"""What reading one file may take: memory and time, counted while it is read.
+
+    memory   64 times the file's size, at least 256 MB, at most 2 GB; or what a person states
+    time     20 s and 5 s for each MB of the file, longer in proportion where more memory is stated
+
+A small file that unpacks to gigabytes is a broken or a crafted one: no recording is that even.
+"""
+
+import time
+from dataclasses import dataclass
+
+from equipoise.model.errors import InputError
+
+MB = 1_000_000
+RATIO = 64  # bytes that one of a file may stand for (chosen: a record of a still bench has 20)
+LEAST, MOST = 256 * MB, 2000 * MB  # bytes (chosen: half of a small computer's memory)
+SECONDS, SECONDS_PER_MB = 20.0, 5.0  # chosen: ten times what the slowest reader takes
+CELL = 100  # bytes, chosen: of a text or a row of numbers as an object in memory
+
+
+@dataclass(frozen=True, slots=True)
+class Budget:
+    """What is stated of it; None: as the file's size has it."""
+
+    memory: int | None = None  # bytes
+
+    def of(self, source: str, size: int) -> "Meter":
+        """Return what counts the reading of a file of so many bytes."""
+        usual = min(max(RATIO * size, LEAST), MOST)
+        memory = usual if self.memory is None else self.memory
+        longer = max(memory / usual, 1.0)
+        return Meter(source, size, memory, longer * (SECONDS + SECONDS_PER_MB * size / MB))
+
+
+class Meter:
+    """Counts what one reading takes; InputError once that is too much."""
+
+    def __init__(self, source: str, size: int, memory: int, seconds: float) -> None:
+        self.source, self.size = source, size
+        self._memory, self._seconds = memory, seconds
+        self._taken, self._begun = 0, time.monotonic()
+
+    @property
+    def left(self) -> int:
+        """Return how many bytes may be taken yet."""
+        return self._memory - self._taken
+
+    def take(self, count: int) -> None:
+        """Count bytes that stay in memory."""
+        self.check(count)
+        self._taken += count
+
+    def check(self, count: int) -> None:
+        """Raise InputError if so many bytes more are too many, or the time is over."""
+        if count > self.left:
+            found = (
+                f"more than {in_mb(self._memory)} once it is read (the file has {in_mb(self.size)})"
+            )
+            raise InputError(self.source, found, self._wanted(2 * self._memory))
+        if time.monotonic() - self._begun > self._seconds:
+            found = f"not read within {self._seconds:.0f} s (the file has {in_mb(self.size)})"
+            raise InputError(self.source, found, self._wanted(2 * self._memory))
+
+    @staticmethod
+    def _wanted(memory: int) -> str:
+        option = f"--max-memory-mb {max(memory // MB, 1)}"
+        return f"a recording that takes less; if this is one, {option} lets it take more"
+
+
+def in_mb(count: int) -> str:
+    """Return bytes as people read them."""
+    return f"{count / MB:.0f} MB" if count >= 10 * MB else f"{count / 1000:.1f} kB"
