@@ -185,7 +185,7 @@ def test_a_data_set_that_its_file_cannot_hold_is_refused():
     content = mat_73({"t": T})
     size = struct.pack("<QQ", 1, ROWS)
     assert size in content
-    with pytest.raises(InputError, match="'t' is larger than the file can hold"):
+    with pytest.raises(InputError, match="more than 256 MB once it is read"):
         table(content.replace(size, struct.pack("<QQ", 1, 10**12)))
 
 

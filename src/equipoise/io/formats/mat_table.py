@@ -32,7 +32,7 @@ WANTED = (
 def read_mat(content: Content, source: str) -> Table:
     """Return the table in a MAT file's bytes."""
     try:
-        variables = _variables(content.whole(), source)
+        variables = _variables(content, source)
     except ValueError as error:
         raise InputError(source, f"a broken MAT file ({error})", WANTED) from error
     columns, notes = table_columns(variables)
@@ -51,11 +51,13 @@ def read_mat(content: Content, source: str) -> Table:
     )
 
 
-def _variables(content: bytes, source: str) -> dict[str, Array]:
+def _variables(content: Content, source: str) -> dict[str, Array]:
     """Return the arrays of a file by name; ValueError if it is broken."""
     if content.startswith(MAGIC_73):
         return variables_73(content, source)
-    return variables_4(content) if is_version_4(content) else variables_5(content)
+    data = content.whole()
+    read = variables_4 if is_version_4(data) else variables_5
+    return read(data, content.meter)
 
 
 def mat_bytes(columns: Mapping[str, Series1]) -> bytes:

@@ -14,37 +14,87 @@ import numpy as np
 from equipoise.io.columns.table import Numbers, Table, finite
 from equipoise.io.files.file_content import Content
 from equipoise.model.arrays import Series1
-from equipoise.model.errors import InputError
+from equipoise.model.errors import EquipoiseError, InputError
 
 MAGIC = b"PAR1"  # a Parquet file begins and ends with it
+BATCH = 65536  # rows that are read at once (chosen)
 
 
 def read_parquet(content: Content, source: str) -> Table:
-    """Return the table in a Parquet file's bytes."""
+    """Return the table in a Parquet file's bytes; lists and structures in it are not read."""
     parquet = _pyarrow("pyarrow.parquet", source)
     try:
-        arrow = parquet.read_table(content.from_start())
-        names = tuple(arrow.column_names)
-    except (OSError, ValueError) as error:
+        names, arrow = _table(parquet, content)
+    except EquipoiseError:
+        raise
+    except Exception as error:  # a parser of broken bytes raises anything
         raise InputError(source, "broken Parquet", "a whole Parquet file") from error
     column = partial(_numbers, arrow=arrow)
     cell = partial(_cell, arrow=arrow)
     return Table(source, names, arrow.num_rows, column, cell=cell, blank="null")
 
 
+def _table(parquet: Any, content: Content) -> tuple[tuple[str, ...], Any]:
+    """Return the names of all columns, and those of single values, batch by batch as they fit.
+
+    A text that many rows share is held once: else some bytes of a file stand for gigabytes.
+    """
+    texts = [each.name for each in _schema(parquet, content) if _is_text(each.type)]
+    file = parquet.ParquetFile(content.from_start(), read_dictionary=texts)
+    schema = file.schema_arrow
+    content.meter.check(_stated_size(file.metadata))
+    flat = [each.name for each in schema if each.type.num_fields == 0]
+    batches: list[Any] = []
+    for batch in file.iter_batches(BATCH, columns=flat):
+        content.meter.take(batch.nbytes)
+        batches.append(batch)
+    arrow = import_module("pyarrow")
+    kept = arrow.schema([each for each in schema if each.name in flat])
+    return tuple(schema.names), arrow.Table.from_batches(batches, kept)
+
+
+def _schema(parquet: Any, content: Content) -> Any:
+    return parquet.ParquetFile(content.from_start()).schema_arrow
+
+
+def _is_text(kind: Any) -> bool:
+    types = import_module("pyarrow.types")
+    return bool(types.is_string(kind) or types.is_binary(kind))
+
+
+def _stated_size(metadata: Any) -> int:
+    """Return the bytes that the largest group of rows takes, by what the file says of itself."""
+    groups = (metadata.row_group(k) for k in range(metadata.num_row_groups))
+    return max((int(group.total_byte_size) for group in groups), default=0)
+
+
 def _numbers(table: Table, name: str, arrow: Any) -> Numbers:
     """Return a column; null says that there is no reading."""
-    column = arrow.column(table.names.index(name))
+    where = f"{table.source}, column '{name}'"
+    if table.names.count(name) > 1:
+        raise InputError(f"{table.source}, schema", f"two columns '{name}'", "one")
+    if name not in arrow.column_names:
+        raise InputError(where, "lists or structures", "numbers")
+    column = arrow.column(name)
     try:
-        values = np.array(column.cast("float64").to_numpy(), dtype=np.float64)
+        values = np.concatenate([_doubles(chunk) for chunk in column.chunks] or [np.zeros(0)])
     except (ValueError, NotImplementedError) as error:
-        where = f"{table.source}, column '{name}'"
         raise InputError(where, f"values of type {column.type}", "numbers") from error
     return finite(values, np.array(column.is_null().to_numpy(), dtype=bool))
 
 
+def _doubles(chunk: Any) -> Series1:
+    """Return a column's rows as numbers; of texts each different one is read once."""
+    if not hasattr(chunk, "dictionary"):
+        return np.array(chunk.cast("float64").to_numpy(zero_copy_only=False), dtype=np.float64)
+    different = _doubles(chunk.dictionary)
+    rows = chunk.indices.fill_null(0).to_numpy(zero_copy_only=False)
+    found = different[rows] if len(different) else np.full(len(rows), np.nan)
+    return np.where(np.array(chunk.is_null(), dtype=bool), np.nan, found)
+
+
 def _cell(name: str, row: int, arrow: Any) -> str:
-    return str(arrow.column(arrow.column_names.index(name))[row].as_py())
+    return str(arrow.column(name)[row].as_py())
 
 
 def parquet_bytes(columns: Mapping[str, Series1], source: str) -> bytes:

@@ -14,6 +14,7 @@ from typing import Any
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
+from equipoise.io.files.reading_budget import CELL, Meter
 from equipoise.io.formats.compressed import ZIP
 from equipoise.io.formats.csv_table import table_of
 from equipoise.io.formats.header_rows import is_number
@@ -25,6 +26,7 @@ WANTED = "an Excel workbook with a sheet of a header and rows of numbers"
 INSTEAD = ", or save the sheet as CSV"
 ROWS = 1 << 20  # of a sheet, at most (Excel's limit)
 CELLS = 1 << 24  # of a sheet, at most (chosen: 16 columns of all rows)
+TEXTS, TEXT = "sharedStrings.xml", 8  # bytes in memory for one there (chosen)
 FEWEST = 2  # rows of two numbers that make a sheet a table (chosen)
 Rows = list[list[str]]
 
@@ -48,7 +50,7 @@ def read_xlsx(content: Content, source: str, layout: Layout) -> Table:
             warnings.simplefilter("ignore")
             _check_size(content)
             book = library.load_workbook(content.from_start(), read_only=True, data_only=True)
-            name, rows, lines = _sheet(book, source)
+            name, rows, lines = _sheet(book, source, content.meter)
     except EquipoiseError:
         raise
     except Exception as error:  # a parser of broken bytes raises anything
@@ -61,16 +63,17 @@ def read_xlsx(content: Content, source: str, layout: Layout) -> Table:
 
 
 def _check_size(content: Content) -> None:
-    """Raise InputError if a workbook is too large once it is unpacked."""
+    """Raise InputError if a workbook is too large once it is unpacked; its texts are kept."""
     with zipfile.ZipFile(content.from_start()) as archive:
-        size = sum(member.file_size for member in archive.infolist())
-    content.meter.check(size)
+        for member in archive.infolist():
+            kept = TEXT if member.filename.endswith(TEXTS) else 1
+            content.meter.check(kept * member.file_size)
 
 
-def _sheet(book: Any, source: str) -> tuple[str, Rows, list[int]]:
+def _sheet(book: Any, source: str, meter: Meter) -> tuple[str, Rows, list[int]]:
     """Return name, rows and their numbers of the first sheet that holds rows of numbers."""
     for sheet in book.worksheets:
-        numbered = list(_rows(sheet, f"{source}, sheet '{sheet.title}'"))
+        numbered = list(_rows(sheet, f"{source}, sheet '{sheet.title}'", meter))
         if sum(map(_holds_numbers, (row for _, row in numbered))) >= FEWEST:
             rows = _without_blank_columns([row for _, row in numbered])
             return sheet.title, rows, [line for line, _ in numbered]
@@ -78,7 +81,7 @@ def _sheet(book: Any, source: str) -> tuple[str, Rows, list[int]]:
     raise InputError(source, f"no rows of numbers in sheets {names or '(none)'}", WANTED)
 
 
-def _rows(sheet: Any, where: str) -> Iterator[tuple[int, list[str]]]:
+def _rows(sheet: Any, where: str, meter: Meter) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows that are not blank, each with its number in the sheet."""
     sheet.reset_dimensions()  # what a file states of its size may be wrong
     cells = 0
@@ -89,6 +92,7 @@ def _rows(sheet: Any, where: str) -> Iterator[tuple[int, list[str]]]:
             raise InputError(where, "too many cells", wanted)
         texts = [_text(value) for value in row]
         if any(map(str.strip, texts)):
+            meter.take(CELL * (1 + len(texts)))
             yield line, texts
 
 

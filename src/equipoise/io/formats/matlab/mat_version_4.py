@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.io.files.reading_budget import CELL, Meter
 from equipoise.io.formats.matlab.mat_variables import Array
 
 HEADER = 20  # bytes
@@ -41,8 +42,11 @@ def is_version_4(content: bytes) -> bool:
     return _header(content, 0) is not None
 
 
-def variables_4(content: bytes) -> dict[str, Array]:
-    """Return the real full matrices by name; ValueError if the file is broken."""
+def variables_4(content: bytes, meter: Meter) -> dict[str, Array]:
+    """Return the real full matrices by name; ValueError if the file is broken.
+
+    InputError where they take too much.
+    """
     found: dict[str, Array] = {}
     at = 0
     while at < len(content):
@@ -54,6 +58,7 @@ def variables_4(content: bytes) -> dict[str, Array]:
         if at > len(content):
             raise ValueError("a matrix beyond the end")
         name = content[begin - head.name_size : begin].partition(b"\0")[0]
+        meter.take(CELL + 8 * head.rows * head.columns)
         if head.kind == 0 and not head.is_complex:
             values = np.frombuffer(content[begin:at], dtype=head.dtype).astype(np.float64)
             shape = (head.rows, head.columns)

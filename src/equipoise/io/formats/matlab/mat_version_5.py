@@ -16,9 +16,11 @@ import math
 import struct
 import zlib
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.io.files.reading_budget import CELL, Meter
 from equipoise.io.formats.matlab.mat_variables import DEEPEST, Array
 from equipoise.model.arrays import Series1
 
@@ -31,91 +33,104 @@ COMPLEX = 0x0800
 TYPES = {
     1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8",
 }  # fmt: skip
-MOST = 1 << 31  # bytes of a variable, chosen: more is no record of a platform
+Element = tuple[int, memoryview]  # type and content
 Named = Iterator[tuple[str, Array]]
 
 
-def variables_5(content: bytes) -> dict[str, Array]:
-    """Return the real arrays by name, fields as 'name.field'; ValueError if the file is broken."""
+def variables_5(content: bytes, meter: Meter) -> dict[str, Array]:
+    """Return the real arrays by name, fields as 'name.field'; ValueError if the file is broken.
+
+    InputError where they take too much.
+    """
     order = ORDERS.get(content[HEADER - 2 : HEADER])
     if order is None:
         raise ValueError("no order of bytes")
-    found: dict[str, Array] = {}
-    for kind, data in _elements(content[HEADER:], order):
-        inner = _inflated(data, order) if kind == COMPRESSED else [(kind, data)]
+    file, found = _File(order, meter), dict[str, Array]()
+    for kind, data in file.elements(memoryview(content)[HEADER:]):
+        inner = file.inflated(data) if kind == COMPRESSED else [(kind, data)]
         for inner_kind, matrix in inner:
             if inner_kind == MATRIX:
-                found.update(_variable(matrix, order))
+                found.update(file.variable(matrix))
     return found
 
 
-def _elements(data: bytes, order: str) -> Iterator[tuple[int, bytes]]:
-    """Yield the types and contents of elements that stand one behind the other."""
-    at = 0
-    while at < len(data):
-        if at + 8 > len(data):
-            raise ValueError("an element without a length")
-        kind, size = struct.unpack_from(f"{order}II", data, at)
-        if kind >> 16:
-            kind, size, begin, step = kind & 0xFFFF, kind >> 16, at + 4, 8
-        else:
-            begin = at + 8
-            step = 8 + size + (0 if kind == COMPRESSED else -size % 8)
-        if begin + size > len(data):
-            raise ValueError("an element beyond the end")
-        yield kind, data[begin : begin + size]
-        at += step
+@dataclass(frozen=True, slots=True)
+class _File:
+    """How a file's bytes are read, and what counts them."""
+
+    order: str
+    meter: Meter
+
+    def elements(self, data: memoryview) -> Iterator[Element]:
+        """Yield the types and contents of elements that stand one behind the other."""
+        at = 0
+        while at < len(data):
+            if at + 8 > len(data):
+                raise ValueError("an element without a length")
+            kind, size = struct.unpack_from(f"{self.order}II", data, at)
+            if kind >> 16:
+                kind, size, begin, step = kind & 0xFFFF, kind >> 16, at + 4, 8
+            else:
+                begin = at + 8
+                step = 8 + size + (0 if kind == COMPRESSED else -size % 8)
+            if begin + size > len(data):
+                raise ValueError("an element beyond the end")
+            self.meter.take(CELL)
+            yield kind, data[begin : begin + size]
+            at += step
+
+    def inflated(self, data: memoryview) -> Iterator[Element]:
+        """Yield the elements that one unpacks to."""
+        left = self.meter.left
+        try:
+            unpacked = zlib.decompressobj().decompress(data, max(left, 1))
+        except zlib.error as error:
+            raise ValueError(str(error)) from error
+        self.meter.take(len(unpacked))
+        self.meter.check(1)
+        yield from self.elements(memoryview(unpacked))
+
+    def variable(self, matrix: memoryview) -> Named:
+        """Yield what a variable holds; one without a name is MATLAB's own."""
+        parts = list(self.elements(matrix))
+        if len(parts) > 2 and len(parts[2][1]):
+            yield from self._arrays(_text(parts[2][1]), parts, DEEPEST)
+
+    def _arrays(self, name: str, parts: list[Element], deep: int) -> Named:
+        """Yield name and numbers of a matrix, or of each field of a structure."""
+        if len(parts) < 4 or len(parts[0][1]) < 4:
+            return
+        (flags,) = struct.unpack_from(f"{self.order}I", parts[0][1])
+        shape = tuple(map(int, self._numbers(*parts[1])))
+        if flags & 0xFF == STRUCTURE and math.prod(shape) == 1 and deep:
+            for field, matrix in self._fields(parts):
+                inner = list(self.elements(matrix))
+                yield from self._arrays(f"{name}.{field}", inner, deep - 1)
+        kind, data = parts[3]
+        if flags & 0xFF in NUMBERS and not flags & COMPLEX and kind in TYPES:
+            values = self._numbers(kind, data)
+            if min(shape, default=-1) >= 0 and math.prod(shape) == len(values):
+                yield name, values.reshape(shape, order="F")
+
+    def _fields(self, parts: list[Element]) -> Iterator[tuple[str, memoryview]]:
+        """Yield name and matrix of each field of a structure."""
+        size = self._numbers(*parts[3])
+        width = int(size[0]) if len(size) else 0
+        if width < 1 or len(parts) < 5:
+            raise ValueError("a structure without names of its fields")
+        names = parts[4][1]
+        for k, (kind, matrix) in enumerate(parts[5:]):
+            if kind == MATRIX:
+                yield _text(names[k * width : (k + 1) * width]), matrix
+
+    def _numbers(self, kind: int, data: memoryview) -> Series1:
+        """Return an element's numbers; ValueError if it is not of numbers."""
+        if kind not in TYPES:
+            raise ValueError(f"type {kind} where numbers belong")
+        numbers = np.frombuffer(data, dtype=f"{self.order}{TYPES[kind]}")
+        self.meter.take(8 * len(numbers))
+        return numbers.astype(np.float64)
 
 
-def _inflated(data: bytes, order: str) -> list[tuple[int, bytes]]:
-    try:
-        return list(_elements(zlib.decompressobj().decompress(data, MOST), order))
-    except zlib.error as error:
-        raise ValueError(str(error)) from error
-
-
-def _variable(matrix: bytes, order: str) -> Named:
-    """Yield what a variable holds; one without a name is MATLAB's own."""
-    parts = list(_elements(matrix, order))
-    if len(parts) > 2 and parts[2][1]:
-        yield from _arrays(_text(parts[2][1]), parts, order, DEEPEST)
-
-
-def _arrays(name: str, parts: list[tuple[int, bytes]], order: str, deep: int) -> Named:
-    """Yield name and numbers of a matrix, or of each field of a structure."""
-    if len(parts) < 4 or len(parts[0][1]) < 4:
-        return
-    (flags,) = struct.unpack_from(f"{order}I", parts[0][1])
-    shape = tuple(map(int, _numbers(*parts[1], order)))
-    if flags & 0xFF == STRUCTURE and math.prod(shape) == 1 and deep:
-        for field, matrix in _fields(parts, order):
-            inner = list(_elements(matrix, order))
-            yield from _arrays(f"{name}.{field}", inner, order, deep - 1)
-    kind, data = parts[3]
-    if flags & 0xFF in NUMBERS and not flags & COMPLEX and kind in TYPES:
-        values = _numbers(kind, data, order)
-        if min(shape, default=-1) >= 0 and math.prod(shape) == len(values):
-            yield name, values.reshape(shape, order="F")
-
-
-def _fields(parts: list[tuple[int, bytes]], order: str) -> Iterator[tuple[str, bytes]]:
-    """Yield name and matrix of each field of a structure."""
-    size = _numbers(*parts[3], order)
-    width = int(size[0]) if len(size) else 0
-    if width < 1 or len(parts) < 5:
-        raise ValueError("a structure without names of its fields")
-    names = parts[4][1]
-    for k, (kind, matrix) in enumerate(parts[5:]):
-        if kind == MATRIX:
-            yield _text(names[k * width : (k + 1) * width]), matrix
-
-
-def _text(data: bytes) -> str:
-    return data.partition(b"\0")[0].decode("ascii", errors="replace")
-
-
-def _numbers(kind: int, data: bytes, order: str) -> Series1:
-    """Return an element's numbers; ValueError if it is not of numbers."""
-    if kind not in TYPES:
-        raise ValueError(f"type {kind} where numbers belong")
-    return np.frombuffer(data, dtype=f"{order}{TYPES[kind]}").astype(np.float64)
+def _text(data: memoryview) -> str:
+    return bytes(data).partition(b"\0")[0].decode("ascii", errors="replace")

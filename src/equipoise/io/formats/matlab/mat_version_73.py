@@ -6,12 +6,14 @@ holds but the size of something empty; what begins with # is MATLAB's own. h5py 
 imported when such a file is met and not before.
 """
 
-import io
+import math
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
+from equipoise.io.files.file_content import Content
+from equipoise.io.files.reading_budget import CELL, Meter
 from equipoise.io.formats.matlab.mat_variables import DEEPEST, Array
 from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.model.errors import EquipoiseError
@@ -23,35 +25,50 @@ NUMBERS = {
     "uint64",
 }  # fmt: skip
 REAL = "fiu"  # kinds of NumPy's types
-DENSEST = 1032  # bytes that one of deflate's can stand for (zlib's manual)
 INSTEAD = ", or in MATLAB `save(file, '-v7')`"
 
 
-def variables_73(content: bytes, source: str) -> dict[str, Array]:
-    """Return the real arrays by name, fields as 'name.field'; ValueError if the file is broken."""
+def variables_73(content: Content, source: str) -> dict[str, Array]:
+    """Return the real arrays by name, fields as 'name.field'; ValueError if the file is broken.
+
+    InputError where they take too much. What stands in another file is not read.
+    """
     h5py = extra_library("h5py", source, "a MAT file of version 7.3", "matlab", INSTEAD)
     try:
-        with h5py.File(io.BytesIO(content), "r") as file:
-            return dict(_arrays(file, "", DEEPEST, DENSEST * len(content)))
+        with h5py.File(content.from_start(), "r") as file:
+            return dict(_arrays(file, "", DEEPEST, content.meter))
     except EquipoiseError:
         raise
     except Exception as error:  # a parser of broken bytes raises anything
         raise ValueError(str(error)) from error
 
 
-def _arrays(group: Any, prefix: str, deep: int, most: int) -> Iterator[tuple[str, Array]]:
-    """Yield the arrays of a group and of the structures in it, of ``most`` bytes each."""
+def _arrays(group: Any, prefix: str, deep: int, meter: Meter) -> Iterator[tuple[str, Array]]:
+    """Yield the arrays of a group and of the structures in it."""
     for name in group:
-        if name.startswith("#"):
-            continue
-        item = group[name]
-        kind = _class(item)
+        meter.take(CELL)
+        item = None if name.startswith("#") else _own(group, name)
+        kind = "" if item is None else _class(item)
         if kind == STRUCTURE and deep and hasattr(item, "keys"):
-            yield from _arrays(item, f"{prefix}{name}.", deep - 1, most)
-        elif kind in NUMBERS and _is_real(item):
-            if item.nbytes > most:
-                raise ValueError(f"'{prefix}{name}' is larger than the file can hold")
+            yield from _arrays(item, f"{prefix}{name}.", deep - 1, meter)
+        elif item is not None and kind in NUMBERS and _is_real(item):
+            meter.check(_piece(item))
+            meter.take(8 * item.size)
             yield f"{prefix}{name}", np.asarray(item[()], dtype=np.float64).T
+
+
+def _own(group: Any, name: str) -> Any:
+    """Return what a name stands for in this file; None where it leads into another."""
+    if type(group.get(name, getlink=True)).__name__ != "HardLink":
+        return None
+    item = group[name]
+    elsewhere = getattr(item, "external", None) or getattr(item, "is_virtual", False)
+    return None if elsewhere else item
+
+
+def _piece(item: Any) -> int:
+    """Return the bytes that the library unpacks at once, beside the data set itself."""
+    return math.prod(item.chunks or ()) * item.dtype.itemsize + item.nbytes
 
 
 def _class(item: Any) -> str:
