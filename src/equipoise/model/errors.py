@@ -3,7 +3,8 @@
 Poor data is not an error but an outcome (see ``outcome``); these are for wrong use and bad input.
 """
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
 from difflib import get_close_matches
 from typing import Any
 
@@ -31,15 +32,55 @@ def _made_anew(
 MEANT = "did you mean"
 
 
+LONGEST = 1000  # characters of each part of a sentence (chosen: ten lines of a terminal)
+
+
+def shortened(text: str, longest: int) -> str:
+    """Return a text of so many characters at most; its end is kept, which says the most."""
+    if len(text) <= longest:
+        return text
+    half = (longest - 5) // 2
+    return f"{text[:half]} ... {text[-half:]}"
+
+
 class InputError(EquipoiseError):
     """A file, key, column or option that cannot be used; ``wanted`` may ask what was meant."""
 
     def __init__(self, where: str, found: str, wanted: str) -> None:
+        where, found, wanted = (shortened(text, LONGEST) for text in (where, found, wanted))
         end = wanted if wanted.startswith(MEANT) else f"wanted {wanted}"
         super().__init__(f"{where}: found {found}; {end}")
         self.where = where
         self.found = found
         self.wanted = wanted
+
+
+class UnexpectedError(EquipoiseError):
+    """A fault of this program, met while something was read or done; its cause is the error."""
+
+    def __init__(self, where: str, error: BaseException) -> None:
+        said = shortened(f"{type(error).__name__}: {error}", LONGEST)
+        super().__init__(f"{where}: a fault of Equipoise, not of what you gave it ({said})")
+        self.where = where
+
+
+@contextmanager
+def declared(where: str, wanted: str) -> Generator[None]:
+    """Let nothing out that is no EquipoiseError, while something is read at ``where``.
+
+    InputError where the memory is at its end or the file cannot be read; UnexpectedError for all
+    that nobody thought of.
+    """
+    try:
+        yield
+    except EquipoiseError:
+        raise
+    except MemoryError as error:
+        raise InputError(where, "more than this computer's memory holds", wanted) from error
+    except OSError as error:
+        raise InputError(where, error.strerror or str(error), wanted) from error
+    except Exception as error:
+        raise UnexpectedError(where, error) from error
 
 
 class MoveRefused(EquipoiseError):

@@ -83,7 +83,7 @@ def compare(
     bed, first = testbed_from(testbed), checks.seed_of(seed)
     seeds = range(first, first + int(checks.positive("runs", runs)))
     requested = replace(options_from(terms, hold, use_prior), budget=budget_from(budget_s))
-    scene = Scene(bed, checks.positive("duration", duration), tuple(moves), requested)
+    scene = Scene(bed, checks.duration_of("duration", duration, bed), tuple(moves), requested)
     goal = LawGoal(
         checks.vector("target", target, 1.0),
         checks.tolerance("tolerance", tolerance, 1.0),

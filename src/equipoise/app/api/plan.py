@@ -67,7 +67,7 @@ def plan(
     bed, requested = inputs.testbed_from(testbed), inputs.options_from(terms, hold, use_prior)
     request = Request(
         bed,
-        checks.positive("duration", duration),
+        checks.duration_of("duration", duration, bed),
         quantity,
         criterion,
         int(checks.not_negative("moves", moves)),

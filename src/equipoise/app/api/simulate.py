@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import overload
 
-from equipoise.app.arguments.checks import positive, seed_of
+from equipoise.app.arguments.checks import duration_of, positive, seed_of
 from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
@@ -81,7 +81,7 @@ def simulate(
     bed, drawn = testbed_from(testbed), seed_of(seed)
     if plan is not None and (moves or duration is not None):
         raise InputError("plan", "moves or duration beside it", "the plan alone")
-    length = positive("duration", USUAL if duration is None else duration)
+    length = duration_of("duration", USUAL if duration is None else duration, bed)
     manoeuvre = None if plan is None else plan_from(plan, bed).manoeuvre
 
     if series is None:

@@ -2,27 +2,50 @@
 
 import math
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError, nearest
 
+if TYPE_CHECKING:
+    from equipoise.model.testbed import Testbed
+
+MOST_ROWS = 50_000_000  # of a record in memory (chosen: 2 GB; 14 hours at 1 kHz)
 Triple = tuple[float, float, float]
 MaybeNumber = TypeVar("MaybeNumber", float, float | None)
+
+
+def believed(option: str, value: MaybeNumber) -> MaybeNumber:
+    """Return a number that is plausible of a bench; None stays None."""
+    from equipoise.io.toml.plausible import check_plausible
+
+    if value is not None:
+        check_plausible(option, value)
+    return value
 
 
 def positive(option: str, value: MaybeNumber) -> MaybeNumber:
     """Return a number above zero; None, for an option that was not given, stays None."""
     if value is not None and not (0 < value < math.inf):
         raise InputError(option, f"{value:g}", "a number above 0")
-    return value
+    return believed(option, value)
+
+
+def duration_of(option: str, seconds: float, testbed: "Testbed") -> float:
+    """Return a duration (s) of which a testbed's sensors give no more rows than memory holds."""
+    rates = [each.rate for each in (testbed.attitude, testbed.gyro) if each is not None]
+    longest = MOST_ROWS / max(sum(rates), 1.0)
+    if positive(option, seconds) > longest:
+        wanted = f"at most {longest:.0f} s: with {sum(rates):g} rows a second {MOST_ROWS} in all"
+        raise InputError(option, f"{seconds:g}", wanted)
+    return seconds
 
 
 def not_negative(option: str, value: MaybeNumber) -> MaybeNumber:
     """Return a number of at least zero; None stays None."""
     if value is not None and not (0 <= value < math.inf):
         raise InputError(option, f"{value:g}", "a number of at least 0")
-    return value
+    return believed(option, value)
 
 
 def between(option: str, value: float, low: float, high: float) -> float:
@@ -59,6 +82,8 @@ def vector(option: str, values: Triple, unit: float) -> Vector3:
 
     if not all(map(math.isfinite, values)):
         raise InputError(option, f"{values}", "three finite numbers")
+    for value in values:
+        believed(option, value)
     return np.array(values, dtype=float) * unit
 
 

@@ -15,10 +15,12 @@ from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.documents.plan_file import read_plan
 from equipoise.io.files.reading_budget import MB
+from equipoise.io.files.source_file import read_text
 from equipoise.io.recording.frame_check import check_frame
 from equipoise.io.recording.recording_file import check_names, read_recording
 from equipoise.io.testbed.presets import preset_names, preset_text, read_preset
 from equipoise.io.testbed.testbed_file import read_testbed
+from equipoise.io.toml.plausible import implausible
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import Plan
@@ -61,7 +63,7 @@ def testbed_from(testbed: AnyTestbed) -> Testbed:
 
 def testbed_text_of(name: str) -> str:
     """Return the text of a testbed that ``testbed_from`` has read."""
-    return Path(name).read_text(encoding="utf-8") if Path(name).exists() else preset_text(name)
+    return read_text(name, "a testbed file") if Path(name).exists() else preset_text(name)
 
 
 def testbed_with_masses(testbed: AnyTestbed) -> Testbed:
@@ -178,11 +180,18 @@ def move_of(text: str, testbed: Testbed) -> tuple[float, dict[str, float]]:
         if name not in known:
             wanted = nearest(name, known) if known else "no move: the testbed has no masses"
             raise InputError(f"--move '{text}'", f"mass '{name}'", wanted)
-    return _number(read["time"], text), {n: _number(mm, text) * MM for n, mm in pairs}
+    time = _number("time_s", read["time"], text)
+    return time, {name: _number("place_mm", mm, text) * MM for name, mm in pairs}
 
 
-def _number(word: str, text: str) -> float:
+def _number(key: str, word: str, text: str) -> float:
+    """Return a number of a move; ``key`` ends with its unit."""
+    where, found = f"--move '{text}'", f"'{word}'"
     try:
-        return float(word)
+        number = float(word)
     except ValueError as error:
-        raise InputError(f"--move '{text}'", f"'{word}'", "a number") from error
+        raise InputError(where, found, "a number") from error
+    wanted = "a finite number" if not math.isfinite(number) else implausible(key, number)
+    if wanted is not None:
+        raise InputError(where, found, wanted)
+    return number

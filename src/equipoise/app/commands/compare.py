@@ -99,13 +99,13 @@ def compare(
     out
         Folder for the report, figures, compare.json, and methods.csv or laws.csv, a line a run.
     """
-    from equipoise.app.arguments.checks import check_outputs, positive, seed_of
+    from equipoise.app.arguments.checks import check_outputs, duration_of, positive, seed_of
     from equipoise.app.arguments.inputs import move_of, options_of, testbed_from
 
     bed, first = announced(testbed_from(testbed)), seed_of(seed)
     seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
-    duration = positive("--duration-s", duration_s)
+    duration = duration_of("--duration-s", duration_s, bed)
     many = int(positive("--workers", workers))
     check_outputs(out)
     with busy("preparing", announce=False):

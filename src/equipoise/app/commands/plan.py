@@ -64,7 +64,13 @@ def plan(
     out
         Folder for report and plan.json.
     """
-    from equipoise.app.arguments.checks import check_outputs, not_negative, positive, seed_of
+    from equipoise.app.arguments.checks import (
+        check_outputs,
+        duration_of,
+        not_negative,
+        positive,
+        seed_of,
+    )
     from equipoise.app.arguments.inputs import (
         check_of_recording,
         fitting_recording_of,
@@ -74,7 +80,7 @@ def plan(
     from equipoise.model.units import DEG, in_si
 
     bed, requested, seed = announced(testbed_from(testbed)), options_of(seeking), seed_of(seed)
-    duration = positive("--duration-s", duration_s)
+    duration = duration_of("--duration-s", duration_s, bed)
     rate = in_si(positive("--max-rate-deg-s", max_rate_deg_s), DEG)
     count = int(not_negative("--moves", moves))
     tries = int(positive("--trials", trials))

@@ -51,13 +51,13 @@ def simulate(
     series
         Simulate so many runs of the platform that the seed draws; their seeds follow the first.
     """
-    from equipoise.app.arguments.checks import positive, seed_of
+    from equipoise.app.arguments.checks import duration_of, positive, seed_of
     from equipoise.app.arguments.inputs import move_of, plan_from, testbed_from
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.recording_file import write_recording
 
     bed = announced(testbed_from(testbed))
-    duration = positive("--duration-s", 120.0 if duration_s is None else duration_s)
+    duration = duration_of("--duration-s", 120.0 if duration_s is None else duration_s, bed)
     moves, drawn = [move_of(text, bed) for text in move], seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed)
     if planned is not None and (moves or duration_s is not None):

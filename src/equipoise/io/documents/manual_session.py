@@ -14,6 +14,7 @@ from pydantic import Field
 
 from equipoise.io.columns.read_options import BAD_ROWS
 from equipoise.io.files.atomic_file import write_whole
+from equipoise.io.files.source_file import read_text
 from equipoise.io.toml.key_types import Table, Triple
 from equipoise.io.toml.read_toml import read_toml
 from equipoise.io.toml.write_toml import edited
@@ -88,6 +89,6 @@ def read_session(path: Path) -> Session:
 
 def write_session(session: Session, path: Path) -> None:
     """Write a session, whole or not at all; of a file that is there all else stays."""
-    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    text = read_text(path, WANTED) if path.exists() else ""
     keys = session.model_dump(exclude_none=True, exclude_defaults=True)
     write_whole(path, edited(text, keys))

@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+from equipoise.io.files.source_file import read_text
+from equipoise.model.errors import InputError
+
 TESTBED = "testbed.toml"
 A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
 
@@ -9,6 +12,6 @@ A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
 def read_configuration(folder: Path) -> str:
     """Return the text of the testbed that a run was made with; empty if it is not there."""
     try:
-        return (folder / TESTBED).read_text(encoding="utf-8")
-    except OSError:
+        return read_text(folder / TESTBED, "a testbed file")
+    except InputError:
         return ""

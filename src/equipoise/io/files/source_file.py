@@ -64,6 +64,11 @@ def read_bytes(path: str | Path, wanted: str, most: int = LARGEST) -> bytes:
     return content
 
 
+def read_text(path: str | Path, wanted: str, most: int = LARGEST) -> str:
+    """Return the file's text, as ``text_of`` reads it."""
+    return text_of(read_bytes(path, wanted, most), path, wanted)
+
+
 def text_of(content: bytes, path: str | Path, wanted: str) -> str:
     """Return the bytes as text: UTF-8 or UTF-16 by mark or by its zeros, else UTF-8, else Latin-1.
 

@@ -11,8 +11,14 @@ from equipoise.io.columns.table import Table
 from equipoise.io.columns.text_times import with_times_as_numbers
 from equipoise.io.dialects.dialects import detect, dialect_map
 from equipoise.io.recording.build_recording import recording_of
-from equipoise.io.recording.format_registry import content_of, digest, format_of, format_to_write
-from equipoise.model.errors import InputError, nearest
+from equipoise.io.recording.format_registry import (
+    WANTED,
+    content_of,
+    digest,
+    format_of,
+    format_to_write,
+)
+from equipoise.model.errors import InputError, declared, nearest
 from equipoise.model.recording import CHANNELS, Recording, Samples
 from equipoise.model.testbed import Testbed
 
@@ -22,7 +28,7 @@ def read_recording(path: str | Path, options: ReadOptions = AS_IT_IS) -> Recordi
 
     InputError says what cannot be used.
     """
-    with content_of(Path(path), options.max_memory) as content:
+    with declared(str(path), WANTED), content_of(Path(path), options.max_memory) as content:
         table, known = format_of(Path(path), content).read(Path(path), content, options)
         recording = recording_from(table, _columns(table, known, options), options.bad_rows)
         return replace(recording, sha256=digest(Path(path), content))
@@ -30,7 +36,7 @@ def read_recording(path: str | Path, options: ReadOptions = AS_IT_IS) -> Recordi
 
 def read_table(path: str | Path, options: ReadOptions = AS_IT_IS) -> tuple[Table, ColumnMap | None]:
     """Return the table in a file, and what its columns mean where the file itself says so."""
-    with content_of(Path(path), options.max_memory) as content:
+    with declared(str(path), WANTED), content_of(Path(path), options.max_memory) as content:
         return format_of(Path(path), content).read(Path(path), content, options)
 
 

@@ -5,9 +5,16 @@ from dataclasses import dataclass
 from typing import Annotated, Any, cast, get_args
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    field_validator,
+)
 from pydantic_core import PydanticCustomError
 
+from equipoise.io.toml.plausible import implausible
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 
@@ -55,6 +62,14 @@ class Table(BaseModel):
     """One table of the file: an unknown key is an error, and a number must be a finite number."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+    @field_validator("*")
+    @classmethod
+    def _believed(cls, value: Any, info: Any) -> Any:
+        wanted = implausible(str(info.field_name), value)
+        if wanted is not None:
+            raise PydanticCustomError("implausible", "{wanted}", {"wanted": wanted})
+        return value
 
 
 def table_in(annotation: Any) -> type[Table] | None:

@@ -1,5 +1,7 @@
 """Read a TOML file against a schema; every problem becomes one sentence with file and key."""
 
+import itertools
+import re
 import tomllib
 from difflib import get_close_matches
 from pathlib import Path
@@ -9,12 +11,23 @@ from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from equipoise.io.files.source_file import read_bytes, text_of
+from equipoise.io.files.source_file import read_text
 from equipoise.io.toml.key_types import Table, table_in
 from equipoise.io.toml.units import SPOKEN, split_unit
-from equipoise.model.errors import MEANT, InputError
+from equipoise.model.errors import MEANT, InputError, declared
 
 Model = TypeVar("Model", bound=Table)
+LARGEST = 1_000_000  # bytes of a file (chosen: forty times the longest testbed)
+DEEPEST = 32  # tables within tables (chosen: ours have four)
+# What is no key: texts of several lines and of one, remarks.
+QUOTED = re.compile(
+    r'"""[\s\S]*?"""'
+    r"|'''[\s\S]*?'''"
+    r'|"(?:\\.|[^"\\\n])*"'
+    r"|'[^'\n]*'|#[^\n]*"
+)
+BRACKETS = re.compile(r"[\[\]{}]")
+BETWEEN = re.compile(r"[^,=\[\]{}\n]+")  # what holds one key or one value
 SHOWN = 60  # characters of a found value that are repeated; chosen: one line of a terminal
 # What pydantic calls a problem: what the person should have written.
 PLAIN = {
@@ -39,16 +52,21 @@ PLAIN = {
 
 def read_toml(path: str | Path, schema: type[Model], wanted: str) -> Model:
     """Return the file's content as a record of ``schema``."""
-    text = text_of(read_bytes(path, wanted), path, wanted)
-    return parse_toml(text, str(path), schema)
+    with declared(str(path), wanted):
+        return parse_toml(read_text(path, wanted, LARGEST), str(path), schema)
 
 
 def parse_toml(text: str, source: str, schema: type[Model]) -> Model:
     """Return TOML text as a record of ``schema``; ``source`` names the text in errors."""
+    _check_depth(text, source)
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise _syntax_error(text, source, error) from error
+    except ValueError as error:  # a number of more digits than Python reads
+        raise InputError(
+            source, str(error).partition(";")[0], "numbers that a double holds"
+        ) from error
     try:
         return schema.model_validate(data)
     except ValidationError as error:
@@ -56,6 +74,20 @@ def parse_toml(text: str, source: str, schema: type[Model]) -> Model:
         # A misspelt key is reported as unknown and as missing: the first says more.
         first = min(problems, key=lambda p: p["type"] != "extra_forbidden")
         raise _sentence(first, source, schema) from error
+
+
+def _check_depth(text: str, source: str) -> None:
+    """Raise InputError for tables or lists so deep in others that a parser takes for ever."""
+    bare = QUOTED.sub(lambda quoted: "_" + "\n" * quoted[0].count("\n"), text)
+    dotted = (m.start() for m in BETWEEN.finditer(bare) if m[0].count(".") > DEEPEST)
+    places = [match.start() for match in BRACKETS.finditer(bare)]
+    depths = itertools.accumulate(1 if bare[at] in "[{" else -1 for at in places)
+    nested = (at for at, depth in zip(places, depths, strict=True) if depth > DEEPEST)
+    at = next(itertools.chain(dotted, nested), None)
+    if at is not None:
+        line = bare.count("\n", 0, at) + 1
+        wanted = f"at most {DEEPEST} of them"
+        raise InputError(f"{source}, line {line}", "tables or lists deep in others", wanted)
 
 
 def _syntax_error(text: str, source: str, error: tomllib.TOMLDecodeError) -> InputError:
