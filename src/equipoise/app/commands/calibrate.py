@@ -14,7 +14,7 @@ from equipoise.app.arguments.options import (
     Searching,
     Seeking,
 )
-from equipoise.app.console.terminal import announced, busy, show_paths
+from equipoise.app.console.terminal import announced, busy, print_whole, show_paths
 from equipoise.model.errors import InputError
 from equipoise.model.units import MM
 
@@ -121,5 +121,5 @@ def _report_moves(bed: "Testbed", name: str) -> int:
         f'--move "{t:g}: ' + " ".join(f"{m}={d / MM:.4g}" for m, d in goals.items()) + '"'
         for t, goals in plan
     ]
-    print(" \\\n  ".join(lines))
+    print_whole(" \\\n  ".join(lines))
     return 0

@@ -62,7 +62,7 @@ def dashboard(
         session = open_session(opening, expose or LOOPBACK, port, expose is not None)
     with session:
         for line in session.lines():
-            stdout().print(line, markup=False, soft_wrap=True)
+            stdout().print(line, soft_wrap=True)
         with suppress(KeyboardInterrupt):  # the way to end it
             session.serve()
     return 0

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from equipoise.app.text.blocks import Document
+from equipoise.app.text.escaping import for_typst
 
 TEMPLATE = "page.typ"
 
@@ -23,6 +24,6 @@ def pdf(document: Document, images: Mapping[str, bytes]) -> bytes:
 
     source = (files("equipoise.app.report") / TEMPLATE).read_bytes()
     parts = {f"{name}.svg": image for name, image in images.items()}
-    inputs = {"page": json.dumps(asdict(document))}
+    inputs = {"page": json.dumps(for_typst(asdict(document)))}
     inside: Any = {"main.typ": source, **parts}  # its annotations know of one file only
     return typst.compile(inside, sys_inputs=inputs)
