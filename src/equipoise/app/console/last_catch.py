@@ -9,7 +9,6 @@ import sys
 import threading
 import warnings
 from collections.abc import Sequence
-from typing import TextIO
 
 from equipoise.app.console.crash_file import crash_of
 from equipoise.app.console.terminal import complain, stderr
@@ -45,19 +44,16 @@ class _Visible(logging.Formatter):
 
 def show_libraries_words() -> None:
     """Let warnings and logs of libraries be text, whatever names they repeat."""
-    warnings.showwarning = _warn
+    warnings.formatwarning = _visible_warning
     if logging.lastResort is not None:
         logging.lastResort.setFormatter(_Visible())
 
 
-def _warn(
+def _visible_warning(
     message: Warning | str,
     category: type[Warning],
     filename: str,
     lineno: int,
-    file: TextIO | None = None,
     line: str | None = None,
-) -> None:
-    if file is not None or sys.stderr is not None:
-        text = warnings.formatwarning(message, category, filename, lineno, line)
-        (file or sys.stderr).write(for_terminal(text))
+) -> str:
+    return for_terminal(f"{filename}:{lineno}: {category.__name__}: {message}\n")

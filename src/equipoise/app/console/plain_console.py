@@ -14,7 +14,7 @@ from rich.text import Text
 
 from equipoise.app.text.escaping import for_terminal
 
-PLAIN = {"markup": False, "emoji": False, "highlight": False}
+PLAIN: dict[str, Any] = {"markup": False, "emoji": False, "highlight": False}
 
 
 def shown(text: str, style: str = "") -> Text:

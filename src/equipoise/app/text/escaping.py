@@ -9,6 +9,7 @@ as an escape such as ``\x1b``: nothing runs, and nothing vanishes.
 import html
 import re
 import unicodedata
+from collections.abc import Iterator
 from typing import Any
 
 KEPT = "\n\t"  # control characters that lay out our own texts
@@ -76,6 +77,15 @@ def for_typst(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [for_typst(each) for each in value]  # pyright: ignore
     return value
+
+
+def texts_within(value: Any) -> Iterator[str]:
+    """Yield each text within what typst would get."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict | list | tuple):
+        for each in value.values() if isinstance(value, dict) else value:  # pyright: ignore
+            yield from texts_within(each)
 
 
 def for_file_name(name: str) -> str:
