@@ -121,16 +121,16 @@ def _kept(text: str) -> Path | None:
 
 def _trace(error: BaseException) -> Iterator[str]:
     """Yield kind and frames of an error and of what caused it, the last one first."""
-    seen: BaseException | None = error
+    found: BaseException | None = error
     for count in range(CAUSES):
-        if seen is None:
+        if found is None:
             return
-        yield f"{'caused by' if count else 'error'}: {type(seen).__module__}.{type(seen).__name__}"
-        frames = traceback.format_tb(seen.__traceback__)
+        yield f"{'caused by' if count else 'error'}: {type(found).__module__}.{type(found).__name__}"
+        frames = traceback.format_tb(found.__traceback__)
         yield from (line for frame in frames for line in frame.splitlines())
-        if type(seen).__name__ == "_RemoteTraceback":
-            yield from FRAME.findall(str(seen))
-        seen = seen.__cause__ or (None if seen.__suppress_context__ else seen.__context__)
+        if type(found).__name__ == "_RemoteTraceback":
+            yield from FRAME.findall(str(found))
+        found = found.__cause__ or (None if found.__suppress_context__ else found.__context__)
 
 
 def _named_files(arguments: Sequence[str]) -> Iterator[Path]:

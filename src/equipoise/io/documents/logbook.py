@@ -114,12 +114,22 @@ class Logbook:
         # Where nothing is new, nothing needs to be read: listing does without what reading needs.
         from equipoise.io.documents.run_file import read_run
 
+        # A run may come from anywhere: whatever is wrong with it costs the list that run alone.
+        self._index.execute("SAVEPOINT one")
         try:
             run = read_run(self.folder / name)
-            utc = datetime.fromisoformat(run.made_at).timestamp()
-        except (InputError, ValueError) as error:
-            self.unread.append(str(error))
-            return
+            self._insert(name, stamp, _utc(run.made_at), run)
+        except InputError as error:
+            self._leave_out(str(error))
+        except (ValueError, ArithmeticError, OSError, sqlite3.DataError) as error:
+            self._leave_out(f"{self.folder / name}: {error}")
+        self._index.execute("RELEASE one")
+
+    def _leave_out(self, sentence: str) -> None:
+        self._index.execute("ROLLBACK TO one")
+        self.unread.append(sentence)
+
+    def _insert(self, name: str, stamp: int, utc: float, run: LoggedRun) -> None:
         values = (*(getattr(run, c) for c in COLUMNS[:-1]), json.dumps(dict(run.provenance)))
         marks = ", ".join("?" * (len(COLUMNS) + 2))
         names = ", ".join((*COLUMNS, "stamp", "utc"))
@@ -142,6 +152,13 @@ class Logbook:
             self._index.execute("ROLLBACK")
             raise
         self._index.execute("COMMIT")
+
+
+def _utc(made_at: str) -> float:
+    """Return a time as s since 1970; an error for one that no clock here can show."""
+    utc = datetime.fromisoformat(made_at).astimezone().timestamp()
+    datetime.fromtimestamp(utc).astimezone()
+    return utc
 
 
 def _stamps(folder: Path) -> Iterator[tuple[str, int]]:

@@ -2,13 +2,17 @@
 
 from pathlib import Path
 
+from equipoise.io.files.source_file import read_bytes, text_of
+from equipoise.model.errors import InputError
+
 TESTBED = "testbed.toml"
 A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
 
 
 def read_configuration(folder: Path) -> str:
-    """Return the text of the testbed that a run was made with; empty if it is not there."""
+    """Return the text of the testbed that a run was made with; empty if there is none."""
+    path = folder / TESTBED
     try:
-        return (folder / TESTBED).read_text(encoding="utf-8")
-    except OSError:
+        return text_of(read_bytes(path, A_RUN), path, A_RUN)
+    except InputError:
         return ""
