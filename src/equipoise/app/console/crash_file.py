@@ -125,10 +125,11 @@ def _trace(error: BaseException) -> Iterator[str]:
     for count in range(CAUSES):
         if found is None:
             return
-        yield f"{'caused by' if count else 'error'}: {type(found).__module__}.{type(found).__name__}"
+        kind = type(found)
+        yield f"{'caused by' if count else 'error'}: {kind.__module__}.{kind.__qualname__}"
         frames = traceback.format_tb(found.__traceback__)
         yield from (line for frame in frames for line in frame.splitlines())
-        if type(found).__name__ == "_RemoteTraceback":
+        if kind.__name__ == "_RemoteTraceback":
             yield from FRAME.findall(str(found))
         found = found.__cause__ or (None if found.__suppress_context__ else found.__context__)
 
