@@ -137,7 +137,7 @@ def _trace(error: BaseException) -> Iterator[str]:
 def _named_files(arguments: Sequence[str]) -> Iterator[Path]:
     """Yield each file that the arguments name, also as ``--option=file``."""
     for word in arguments:
-        for name in {word, word.partition("=")[2]}:
+        for name in dict.fromkeys((word, word.partition("=")[2])):
             with suppress(OSError, ValueError):
                 if name and Path(name).is_file():
                     yield Path(name)
