@@ -1,6 +1,7 @@
 """`equipoise calibrate`: what masses really do for their commands, and how sensors stand."""
 
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import (
@@ -116,7 +117,7 @@ def _report_moves(bed: "Testbed", name: str) -> int:
     from equipoise.procedure.identification.calibrate import calibration_moves
 
     plan, duration = calibration_moves(bed)
-    lines = [f"equipoise simulate {name} --out run.csv --duration-s {duration:g}"]
+    lines = [f"equipoise simulate {quote(name)} --out run.csv --duration-s {duration:g}"]
     lines += [
         f'--move "{t:g}: ' + " ".join(f"{m}={d / MM:.4g}" for m, d in goals.items()) + '"'
         for t, goals in plan
