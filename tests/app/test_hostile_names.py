@@ -114,7 +114,7 @@ def test_work_on_such_files_shows_their_names_and_does_nothing(equipoise, tmp_pa
     for path in (p for p in tmp_path.rglob("*") if p.suffix in (".html", ".json", ".svg", ".csv")):
         text = path.read_text(encoding="utf-8")
         assert not ACTING & set(text)
-        assert not PAGE.search(text)
+        assert path.suffix not in (".html", ".svg") or not PAGE.search(text)
 
 
 def test_a_kept_run_has_its_names_in_page_paper_list_and_table(
