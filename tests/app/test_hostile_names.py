@@ -4,6 +4,7 @@ Names are written by others: files, columns, testbeds. At a terminal they are vi
 without effect; in a table no cell is a formula, in a page nothing is an element.
 """
 
+import csv
 import html
 import re
 from collections.abc import Iterator
@@ -56,7 +57,7 @@ def test_every_command_is_tried():
     assert len(LINES) > 200
 
 
-@pytest.mark.parametrize("words", LINES, ids=[" ".join(words[:2]) for words in LINES])
+@pytest.mark.parametrize("words", LINES, ids=[f"{words[0]} {k}" for k, words in enumerate(LINES)])
 def test_what_an_option_is_given_is_shown_and_does_nothing(equipoise, tmp_path, free_file, words):
     (tmp_path / "taken").write_text("")
     (tmp_path / "run.csv").write_bytes(free_file.read_bytes())
@@ -115,6 +116,26 @@ def test_work_on_such_files_shows_their_names_and_does_nothing(equipoise, tmp_pa
         text = path.read_text(encoding="utf-8")
         assert not ACTING & set(text)
         assert path.suffix not in (".html", ".svg") or not PAGE.search(text)
+
+
+COLUMNS = ("=cmd|'/c calc'!A1", "[/red]\x1b]0;t\x07", "mass_[red]\u202e_mm", "wheel_$\\frac{_rad_s",
+           "cmd_{x}\x9b")  # fmt: skip
+
+
+@pytest.mark.parametrize("command", ["inspect", "import", "identify", "observe", "convert"])
+@pytest.mark.parametrize("native", [True, False])
+def test_names_of_columns_are_shown_and_do_nothing(equipoise, tmp_path, free_file, command, native):
+    """Whether they are read, reported as unread, or refused."""
+    rows = list(csv.reader(free_file.read_text().splitlines()[:200]))
+    head = rows[0] if native else [f"[bold]{name}\x1b[31m" for name in rows[0]]
+    with (tmp_path / "odd.csv").open("w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file)
+        table.writerow((*head, *COLUMNS))
+        table.writerows((*row, *(k * 0.01 for _ in COLUMNS)) for k, row in enumerate(rows[1:]))
+    more = {"inspect": ("--figure", "a.svg"), "import": (), "convert": ("out.csv",)}
+    done = equipoise(command, "odd.csv", *more.get(command, ("--testbed", "sputnix")))
+    assert done.code in (0, 1, 2)
+    assert not ACTING & set(done.out + done.err)
 
 
 def test_a_kept_run_has_its_names_in_page_paper_list_and_table(
