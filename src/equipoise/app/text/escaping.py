@@ -9,10 +9,10 @@ as an escape such as ``\x1b``: nothing runs, and nothing vanishes.
 import html
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
-KEPT = "\n\t"  # control characters that lay out our own texts
+KEPT = "\t"  # lays out our own texts, as line ends do
 SURROGATES = range(0xDC80, 0xDD00)  # bytes of a file's name that are no UTF-8, as Python has them
 RUN_BY_SPREADSHEETS = ("=", "+", "-", "@", "\t", "\r", "＝", "＋", "－", "＠")  # noqa: RUF001
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|nan)")
@@ -34,7 +34,7 @@ def for_terminal(text: str) -> str:
     Control characters of both sets, direction overrides, characters of no width, separators of
     lines and paragraphs, lone surrogates and what no font has become escapes.
     """
-    return text if text.isprintable() else "".join(map(_visible, text))
+    return _by_lines(text, _visible)
 
 
 def for_one_line(text: str) -> str:
@@ -44,7 +44,7 @@ def for_one_line(text: str) -> str:
 
 def for_json(text: str) -> str:
     """Return a JSON text that means the same, with JSON's escapes for what is not visible."""
-    return text if text.isprintable() else "".join(map(_json_visible, text))
+    return _by_lines(text, _json_visible)
 
 
 def for_csv_cell(cell: Any) -> Any:
@@ -95,6 +95,12 @@ def for_file_name(name: str) -> str:
     """
     plain = NOT_IN_FILE_NAMES.sub("-", name).lower().strip("-.")[:LONGEST].rstrip("-.")
     return UNNAMED if not plain or plain.split(".")[0] in RESERVED else plain
+
+
+def _by_lines(text: str, visible: Callable[[str], str]) -> str:
+    """Return a text letter by letter; documents are long, and most of their lines need nothing."""
+    lines = text.split("\n")
+    return "\n".join(t if t.isprintable() else "".join(map(visible, t)) for t in lines)
 
 
 def _visible(letter: str) -> str:
