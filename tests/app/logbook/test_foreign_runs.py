@@ -112,6 +112,9 @@ BROKEN = {
     "text for a number": changed(temperature="warm"),
     "lone surrogate": changed(platform="\ud800"),
     "parameters": changed(parameters=[{"name": "com_x"}]),
+    "negative sd": text_of_run(entry("x", "x", parameters=(Parameter("com_x", "m", 1e-6, -1.0),))),
+    "far future": changed(made_at="9999-12-30T00:00:00"),
+    "before 1970": changed(made_at="1969-01-01T00:00:00"),
     "binary": b"\x00\xff\x1b]0;t\x07",
 }
 
@@ -153,7 +156,7 @@ def test_a_testbed_that_is_none_costs_no_list(equipoise, tmp_path, bed):
 @pytest.mark.parametrize("value", [1e308, -1e308, 1e-320, float("inf"), float("nan"), 0.0])
 def test_numbers_beyond_all_measure_cost_no_list(equipoise, tmp_path, value):
     runs = tmp_path / "runs"
-    odd = tuple(Parameter(name, "m", value, value) for name in (*COM, *INERTIA))
+    odd = tuple(Parameter(name, "m", value, abs(value)) for name in (*COM, *INERTIA))
     for week in (1, 2):
         run = entry("r", "bed", week, parameters=odd, standing=odd, temperature=value)
         put(runs / f"r{week}", text_of_run(run))

@@ -23,6 +23,8 @@ from equipoise.model.logged_run import RUN, Build, LoggedRun, ending_of
 INDEX = "logbook.sqlite"
 PATIENCE = 30.0  # s, chosen: for another process to end what it writes
 REMADE = "a logbook's index; delete it, and it is made anew from the folders of the runs"
+LATEST = 32_503_680_000.0  # s since 1970, chosen: the year 3000, which every clock can show
+A_TIME = "a time from 1970 to 2999, such as 2026-03-01T09:00:00+01:00"
 COLUMNS = ("name", "kind", "made_at", "platform", "configuration", "method", "bench", "outcome",
            "sentence", "temperature", "provenance")  # fmt: skip
 
@@ -118,10 +120,10 @@ class Logbook:
         self._index.execute("SAVEPOINT one")
         try:
             run = read_run(self.folder / name)
-            self._insert(name, stamp, _utc(run.made_at), run)
+            self._insert(name, stamp, _utc(run.made_at, str(self.folder / name)), run)
         except InputError as error:
             self._leave_out(str(error))
-        except (ValueError, ArithmeticError, OSError, sqlite3.DataError) as error:
+        except (ValueError, ArithmeticError, sqlite3.DataError) as error:
             self._leave_out(f"{self.folder / name}: {error}")
         self._index.execute("RELEASE one")
 
@@ -154,10 +156,14 @@ class Logbook:
         self._index.execute("COMMIT")
 
 
-def _utc(made_at: str) -> float:
-    """Return a time as s since 1970; an error for one that no clock here can show."""
-    utc = datetime.fromisoformat(made_at).astimezone().timestamp()
-    datetime.fromtimestamp(utc).astimezone()
+def _utc(made_at: str, where: str) -> float:
+    """Return a time as s since 1970; InputError for one at which no run was made."""
+    try:
+        utc = datetime.fromisoformat(made_at).astimezone().timestamp()
+    except (ValueError, ArithmeticError, OSError) as error:
+        raise InputError(f"{where}: made_at", str(error), A_TIME) from error
+    if not 0 <= utc < LATEST:
+        raise InputError(f"{where}: made_at", f"'{made_at}'", A_TIME)
     return utc
 
 
