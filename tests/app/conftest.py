@@ -20,6 +20,15 @@ class Outcome:
     err: str
 
 
+@pytest.fixture(autouse=True, scope="session")
+def crash_folder(tmp_path_factory):
+    """Keep crash files of programs under test out of the folder of the person who tests."""
+    with pytest.MonkeyPatch.context() as patch:
+        state = tmp_path_factory.mktemp("state")
+        patch.setenv("XDG_STATE_HOME", str(state))
+        yield state / "equipoise" / "crashes"
+
+
 @pytest.fixture
 def equipoise(capsys, monkeypatch, tmp_path):
     """Return a function that runs a command line in an empty folder."""

@@ -506,6 +506,16 @@ APP = _of(
     ("text/sparkline.py", "max(columns[k] or 0.0, value)", "min(columns[k] or 0.0, value)",
      "app/text/test_sparkline.py"),
     ("cli.py", "WRONG_USE = 2", "WRONG_USE = 1", "app/test_exit_codes.py"),
+    ("text/escaping.py", "return _by_lines(text, _visible)", "return text",
+     "app/text/test_escaping.py"),
+    ("text/escaping.py", "and not NUMBER.fullmatch(cell)", "and False",
+     "app/text/test_escaping.py"),
+    ("console/plain_console.py", '"markup": False', '"markup": True',
+     "app/console/test_plain_console.py"),
+    ("console/crash_file.py", "traceback.clear_frames(error.__traceback__)", "pass",
+     "app/test_last_catch.py"),
+    ("report/saved_report.py", "if NAME.fullmatch(name) is None:", "if False:",
+     "app/report/test_foreign_report.py"),
 )  # fmt: skip
 
 MUTANTS = (

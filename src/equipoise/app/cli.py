@@ -1,9 +1,9 @@
 """The door for people: commands, exit codes, and one sentence for whatever goes wrong.
 
 0: done, and the verdict passed. 1: done, and the verdict failed or the estimate is not usable.
-2: wrong use or bad input. 130: stopped by Ctrl-C, 143: by SIGTERM, 129: by SIGHUP, each after the
-same halt and account. No numerical library is imported here; each command imports what it needs
-when it runs.
+2: wrong use or bad input. 3: an error that nobody has foreseen; a sentence names its crash file.
+130: stopped by Ctrl-C, 143: by SIGTERM, 129: by SIGHUP, each after the same halt and account. No
+numerical library is imported here; each command imports what it needs when it runs.
 """
 
 import sys
@@ -42,13 +42,19 @@ from equipoise.app.commands.report import report
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.commands.track import track
+from equipoise.app.console.last_catch import (
+    catch_threads,
+    report_crash,
+    show_libraries_words,
+)
 from equipoise.app.console.lasting_output import lasting
 from equipoise.app.console.stop_request import cause_of, exit_code_of, leave_to_system, stoppable
 from equipoise.app.console.terminal import complain
-from equipoise.model.errors import EquipoiseError, Implausible
+from equipoise.model.errors import EquipoiseError, Implausible, UnforeseenError
 from equipoise.model.version import __version__
 
 WRONG_USE = 2
+UNFORESEEN = 3
 BY_HAND = 130  # what shells give a program that Ctrl-C ended; other signals: 128 and their number
 NOT_USABLE = 1  # an outcome, not a wrong use
 LEFT_ALONE = 1  # as rich ends a program whose output nobody reads any more
@@ -73,9 +79,15 @@ for command in COMMANDS:
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """Carry out a command line and return its exit code."""
-    with stoppable():
-        return _run(arguments)
+    """Carry out a command line and return its exit code; no error of any kind passes it."""
+    try:
+        with stoppable():
+            return _run(arguments)
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:  # a library in Rust panics with what is no Exception
+        report_crash(error, sys.argv[1:] if arguments is None else arguments)
+        return UNFORESEEN
 
 
 def _run(arguments: Sequence[str] | None) -> int:
@@ -86,6 +98,8 @@ def _run(arguments: Sequence[str] | None) -> int:
     except Implausible as error:
         complain(str(error))
         return NOT_USABLE
+    except UnforeseenError:
+        raise
     except EquipoiseError as error:
         complain(str(error))
     except BrokenPipeError:
@@ -105,9 +119,11 @@ def main() -> None:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
     sys.stdout, sys.stderr = lasting(sys.stdout), lasting(sys.stderr)
+    show_libraries_words()
+    ended_threads = catch_threads(sys.argv[1:])
     code = run()
     leave_to_system()
-    sys.exit(code)
+    sys.exit(UNFORESEEN if ended_threads else code)
 
 
 if __name__ == "__main__":

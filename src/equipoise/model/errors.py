@@ -55,12 +55,12 @@ class InputError(EquipoiseError):
         self.wanted = wanted
 
 
-class UnexpectedError(EquipoiseError):
+class UnforeseenError(EquipoiseError):
     """A fault of this program, met while something was read or done; its cause is the error."""
 
     def __init__(self, where: str, error: BaseException) -> None:
         said = shortened(f"{type(error).__name__}: {error}", LONGEST)
-        super().__init__(f"{where}: a fault of Equipoise, not of what you gave it ({said})")
+        super().__init__(f"{where}: {said}")
         self.where = where
 
 
@@ -68,7 +68,7 @@ class UnexpectedError(EquipoiseError):
 def declared(where: str, wanted: str) -> Generator[None]:
     """Let nothing out that is no EquipoiseError, while something is read at ``where``.
 
-    InputError where the memory is at its end or the file cannot be read; UnexpectedError for all
+    InputError where the memory is at its end or the file cannot be read; UnforeseenError for all
     that nobody thought of.
     """
     try:
@@ -80,7 +80,7 @@ def declared(where: str, wanted: str) -> Generator[None]:
     except OSError as error:
         raise InputError(where, error.strerror or str(error), wanted) from error
     except Exception as error:
-        raise UnexpectedError(where, error) from error
+        raise UnforeseenError(where, error) from error
 
 
 class MoveRefused(EquipoiseError):

@@ -1,6 +1,7 @@
 """`equipoise calibrate`: what masses really do for their commands, and how sensors stand."""
 
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import (
@@ -14,7 +15,7 @@ from equipoise.app.arguments.options import (
     Searching,
     Seeking,
 )
-from equipoise.app.console.terminal import announced, busy, show_paths
+from equipoise.app.console.terminal import announced, busy, print_whole, show_paths
 from equipoise.model.errors import InputError
 from equipoise.model.units import MM
 
@@ -116,10 +117,10 @@ def _report_moves(bed: "Testbed", name: str) -> int:
     from equipoise.procedure.identification.calibrate import calibration_moves
 
     plan, duration = calibration_moves(bed)
-    lines = [f"equipoise simulate {name} --out run.csv --duration-s {duration:g}"]
+    lines = [f"equipoise simulate {quote(name)} --out run.csv --duration-s {duration:g}"]
     lines += [
         f'--move "{t:g}: ' + " ".join(f"{m}={d / MM:.4g}" for m, d in goals.items()) + '"'
         for t, goals in plan
     ]
-    print(" \\\n  ".join(lines))
+    print_whole(" \\\n  ".join(lines))
     return 0

@@ -35,7 +35,7 @@ def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
     from equipoise.hardware.bench.open_port import open_port
 
     def print_line(line: str) -> None:
-        stdout().print(line, markup=False, style="dim", soft_wrap=True)
+        stdout().print(line, style="dim", soft_wrap=True)
 
     bed = announced(testbed_from(testbed))
     reported: list[CheckResult] = []

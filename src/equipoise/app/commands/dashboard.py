@@ -53,7 +53,7 @@ def dashboard(
 
     if not 0 <= port < 65536:
         raise InputError("--port", str(port), "0 to 65535")
-    if expose is not None and expose in EVERYWHERE:
+    if expose is not None and (expose in EVERYWHERE or not _is_address(expose)):
         raise InputError("--expose", f"'{expose}'", "one address of this computer")
     opening = _opening(shown, testbed, seed_of(seed), bench, reading)
     with busy("starting the dashboard", announce=False):
@@ -62,10 +62,18 @@ def dashboard(
         session = open_session(opening, expose or LOOPBACK, port, expose is not None)
     with session:
         for line in session.lines():
-            stdout().print(line, markup=False, soft_wrap=True)
+            stdout().print(line, soft_wrap=True)
         with suppress(KeyboardInterrupt):  # the way to end it
             session.serve()
     return 0
+
+
+def _is_address(text: str) -> bool:
+    """Say whether a text may be an address: no socket takes another, each says so in its way."""
+    try:
+        return text.isascii() and text.isprintable() and bool(text.encode("idna"))
+    except UnicodeError:
+        return False
 
 
 def _opening(

@@ -44,8 +44,8 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
         write_testbed(bed, out)
         assert bed.hardware is not None
         for device in (*bed.hardware.boards, *bed.hardware.sensors):
-            stdout().print(f"{device.name}: {device.driver} at {device.port.address}", markup=False)
-        stdout().print(f"wrote {out}; Ctrl-C ends the emulation", markup=False)
+            stdout().print(f"{device.name}: {device.driver} at {device.port.address}")
+        stdout().print(f"wrote {out}; Ctrl-C ends the emulation")
         _run(bench, longest)
     finally:
         bench.close()

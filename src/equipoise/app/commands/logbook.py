@@ -85,7 +85,7 @@ def _show(
         print_result(views.compared_json(book, chosen), (views.compared(book, chosen),), json)
         return
     if earlier and not json:
-        stderr().print(f"{earlier} earlier runs are not shown (--last 0: all).", markup=False)
+        stderr().print(f"{earlier} earlier runs are not shown (--last 0: all).")
     print_result(views.runs_json(book, shown), views.runs_blocks(book, shown), json)
 
 

@@ -41,5 +41,5 @@ def new(
     if path.exists() and not force:
         raise InputError(str(path), "a file that is already there", "another --out, or --force")
     write_testbed(text, path)
-    stdout().print(f"wrote {path}: what is marked 'assumed' is yours to measure", markup=False)
+    stdout().print(f"wrote {path}: what is marked 'assumed' is yours to measure")
     return 0

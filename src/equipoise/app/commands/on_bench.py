@@ -70,7 +70,7 @@ def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", requested: OnBench) 
     with busy("practising on a simulated platform", announce=True):
         verdict = practised(bed, goal, limits)
     if verdict is not None and not verdict.passed:
-        stderr().print(f"In practice, simulated: {verdict.sentence}", markup=False)
+        stderr().print(f"In practice, simulated: {verdict.sentence}")
     question = "The masses will go home. Is the platform held level, and their way free?"
     if not requested.yes and not agreed(question):
         raise InputError("the platform", "not ready", "somebody who holds it; then yes, or --yes")

@@ -49,7 +49,7 @@ def replay(
             from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView
 
             view = stack.enter_context(LiveView(zero_ns, bed))
-            stdout().print(f"Foxglove WebSocket: {view.address}; layout: {LAYOUT}", markup=False)
+            stdout().print(f"Foxglove WebSocket: {view.address}; layout: {LAYOUT}")
             onlookers.append(view.rows)
         replayed(bed, recording, pace, onlookers)
     return 0

@@ -7,6 +7,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table as RichTable
 from rich.text import Text
 
+from equipoise.app.console.plain_console import shown
 from equipoise.app.console.terminal import stdout
 from equipoise.app.text.blocks import (
     Block,
@@ -61,17 +62,17 @@ def renderable(block: Block) -> RenderableType:
 
 @renderable.register
 def _(block: Heading) -> Text:
-    return Text(block.text, style="bold")
+    return shown(block.text, style="bold")
 
 
 @renderable.register
 def _(block: Paragraph) -> Text:
-    return Text(block.text, style=STYLES[block.tone])
+    return shown(block.text, style=STYLES[block.tone])
 
 
 @renderable.register
 def _(block: Claim) -> Text:
-    return Text(block.text, style=f"bold {STYLES[block.tone]}".strip())
+    return shown(block.text, style=f"bold {STYLES[block.tone]}".strip())
 
 
 @renderable.register
@@ -81,7 +82,7 @@ def _(block: Items) -> RichTable:
     grid.add_column(width=max(NARROW, *(len(mark) + NARROW for mark in marks if len(mark) > 1), 0))
     grid.add_column()
     for mark, item in zip(marks, block.items, strict=True):
-        grid.add_row(Text(mark), Text(item.text), style=STYLES[item.tone])
+        grid.add_row(shown(mark), shown(item.text), style=STYLES[item.tone])
     return grid
 
 
@@ -91,7 +92,7 @@ def _(block: Pairs) -> RichTable:
     grid.add_column(style="bold", no_wrap=True)
     grid.add_column()
     for name, text in block.pairs:
-        grid.add_row(Text(name), Text(text))
+        grid.add_row(shown(name), shown(text))
     return grid
 
 
@@ -103,12 +104,12 @@ def _(block: Table) -> Group:
     for k, column in enumerate(block.columns):
         kept = not column.fold and (folds or k == 0)
         grid.add_column(
-            Text(column.title), justify=column.align, style="" if k else "bold", no_wrap=kept
+            shown(column.title), justify=column.align, style="" if k else "bold", no_wrap=kept
         )
     for row in block.rows:
-        grid.add_row(*map(Text, row.cells), style=STYLES[row.tone])
-    title = [Text(block.title, style="bold")] if block.title else []
-    return Group(*title, *([grid] if block.rows else []), *map(Text, block.notes))
+        grid.add_row(*map(shown, row.cells), style=STYLES[row.tone])
+    title = [shown(block.title, style="bold")] if block.title else []
+    return Group(*title, *([grid] if block.rows else []), *map(shown, block.notes))
 
 
 def _quiet_table(header: bool) -> RichTable:
@@ -122,11 +123,11 @@ def _(block: Moment) -> RichTable:
     grid.add_column(width=9, justify="right", no_wrap=True)
     grid.add_column(width=WHAT, no_wrap=True)
     grid.add_column()
-    cells = map(Text, (block.time, block.what, block.text))
+    cells = map(shown, (block.time, block.what, block.text))
     grid.add_row(*cells, style=STEP_STYLES.get(block.what, ""))
     return grid
 
 
 @renderable.register
 def _(block: Figure) -> Text:
-    return Text(f"[{block.name}] {block.caption}", style="dim")
+    return shown(f"[{block.name}] {block.caption}", style="dim")

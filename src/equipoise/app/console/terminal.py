@@ -8,11 +8,13 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
 from equipoise.app.console.stop_request import stoppable
+from equipoise.app.text.escaping import for_one_line, for_terminal
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from rich.console import Console, RenderableType
+    from rich.progress import TextColumn
 
     from equipoise.model.step import Step
     from equipoise.model.testbed import Testbed
@@ -27,10 +29,10 @@ Spreading = Callable[[Callable[[Item], Result], Sequence[Item]], Iterator[Result
 
 def stdout() -> "Console":
     """Return the console for results; cut off from a terminal, lines are not folded at 80."""
-    from rich.console import Console
+    from equipoise.app.console.plain_console import PlainConsole
 
-    console = Console(highlight=False, soft_wrap=False)
-    return console if console.is_terminal else Console(highlight=False, width=120)
+    console = PlainConsole(soft_wrap=False)
+    return console if console.is_terminal else PlainConsole(width=120)
 
 
 def stderr() -> "Console":
@@ -42,30 +44,34 @@ def stderr() -> "Console":
 
 
 def _new_stderr() -> "Console":
-    from rich.console import Console
+    from equipoise.app.console.plain_console import PlainConsole
 
-    return Console(stderr=True, highlight=False, soft_wrap=True)
+    return PlainConsole(stderr=True, soft_wrap=True)
 
 
 def complain(sentence: str) -> None:
     """Print what is wrong, in one line."""
-    from rich.text import Text
+    from equipoise.app.console.plain_console import shown
 
     if sys.stderr is not None:
-        line = " ".join(sentence.split())
-        stderr().print(Text.assemble(("equipoise:", "bold red"), f" {line}"))
+        stderr().print(shown("equipoise:", "bold red").append(f" {for_one_line(sentence)}", ""))
+
+
+def print_whole(text: str) -> None:
+    """Print a text for a program to read or a person to copy: no line is folded."""
+    print(for_terminal(text))
 
 
 def announced(testbed: "Testbed") -> "Testbed":
     """Return a testbed, having printed what reading it had to set right."""
     for reason in testbed.mended:
-        stderr().print(f"~ {reason.sentence}", markup=False)
+        stderr().print(f"~ {reason.sentence}")
     return testbed
 
 
 def agreed(question: str) -> bool:
     """Ask a person; anything but yes is no, and so is nobody there."""
-    stderr().print(f"{question} [y/n] ", end="", markup=False)
+    stderr().print(f"{question} [y/n] ", end="")
     try:
         return input().strip().lower() in ("y", "yes")
     except EOFError:
@@ -121,7 +127,9 @@ class _SignOfLife:
         self._live.stop()
 
     def say(self, text: str) -> None:
-        self._line.update(text=f"{text} ...")
+        from equipoise.app.console.plain_console import shown
+
+        self._line.update(text=shown(f"{text} ..."))
         if self._announce and not self.console.is_interactive and text not in self._said:
             self._said.append(text)
             self.console.print(f"{text} ...")
@@ -139,15 +147,22 @@ def say_what_is_done(stage: str) -> None:
 @contextmanager
 def counted(what: str) -> "Generator[Callable[[float], None]]":
     """Show progress on stderr; the function that is yielded takes the share that is done."""
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeElapsedColumn
 
     console = stderr()
     if not console.is_terminal:
         console.print(f"{what} ...")
-    columns = (TextColumn(what), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
+    columns = (_described(), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as progress:
-        bar = progress.add_task(what, total=1.0)
+        bar = progress.add_task(for_terminal(what), total=1.0)
         yield lambda share: progress.update(bar, completed=share)
+
+
+def _described() -> "TextColumn":
+    """Return the column of a progress line that names what is done, without markup."""
+    from rich.progress import TextColumn
+
+    return TextColumn("{task.description}", markup=False)
 
 
 def spread_over(workers: int, doing: str) -> Spreading[Item, Result]:
@@ -157,21 +172,16 @@ def spread_over(workers: int, doing: str) -> Spreading[Item, Result]:
         from concurrent.futures import ProcessPoolExecutor
         from multiprocessing import get_context
 
-        from rich.progress import (
-            BarColumn,
-            MofNCompleteColumn,
-            Progress,
-            TextColumn,
-            TimeElapsedColumn,
-        )
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeElapsedColumn
 
-        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
-                   TimeElapsedColumn())  # fmt: skip
+        columns = (_described(), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
         with (
             Progress(*columns, console=stderr(), transient=True) as progress,
             ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool,
         ):
-            yield from progress.track(pool.map(work, items), len(items), description=doing)
+            yield from progress.track(
+                pool.map(work, items), len(items), description=for_terminal(doing)
+            )
 
     return spread
 
@@ -196,7 +206,7 @@ def show_paths(paths: "Sequence[Path]", aside: bool = False) -> None:
     console, top = stderr() if aside else stdout(), min(len(path.parts) for path in paths)
     for folder in dict.fromkeys(path.parent for path in paths if len(path.parts) > top):
         number = sum(path.parent == folder for path in paths)
-        console.print(f"wrote {number} files in {folder}", markup=False, soft_wrap=True)
+        console.print(f"wrote {number} files in {folder}", soft_wrap=True)
     for path in paths:
         if len(path.parts) == top:
-            console.print(f"wrote {path}", markup=False, soft_wrap=True)
+            console.print(f"wrote {path}", soft_wrap=True)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.console.rich_blocks import show
-from equipoise.app.console.terminal import busy, show_paths, stderr
+from equipoise.app.console.terminal import busy, print_whole, show_paths, stderr
 from equipoise.app.logbook.run_folder import own_folder
 from equipoise.app.report.run_record import Output
 from equipoise.app.report.write import write_output
@@ -15,7 +15,7 @@ from equipoise.app.text.json_shape import View
 def print_result(document: View, blocks: Blocks, json: bool, below: bool = False) -> None:
     """Print a result's document, or its blocks; ``below`` sets those off from what stands above."""
     if json:
-        print(dump(document))
+        print_whole(dump(document))
     else:
         show(blocks, below)
 
@@ -45,4 +45,4 @@ def keep(output: Output, platform: str) -> None:
     if own is not None:
         with busy("writing the report", announce=False):
             write_output(output, own)
-        stderr().print(f"kept in {own}", markup=False)
+        stderr().print(f"kept in {own}")

@@ -1,12 +1,12 @@
 """Where a run is put down: the folder that was asked for, or one of its own among the runs."""
 
 import os
-import re
 from datetime import datetime
 from itertools import chain, count
 from pathlib import Path
 
 from equipoise.app.console.terminal import complain
+from equipoise.app.text.escaping import for_file_name
 from equipoise.io.files.atomic_file import check_folder
 from equipoise.model.errors import InputError
 
@@ -33,9 +33,9 @@ def own_folder(kind: str, platform: str) -> Path | None:
     return free(runs / f"{now}_{kind}_{slug(platform)}")
 
 
-def slug(name: str) -> str:
-    """Return a name as a part of a file's name."""
-    return re.sub(r"[^\w.]+", "-", name).strip("-").lower()[:40] or "platform"
+def slug(platform: str) -> str:
+    """Return what a folder or a record of a platform has of its name."""
+    return for_file_name(platform)
 
 
 def free(folder: Path) -> Path:

@@ -78,10 +78,18 @@ def described(book: Logbook, shown: Sequence[Build]) -> Iterator[tuple[Build, st
 
 def changed(before: str, after: str) -> Sequence[str]:
     """Return which values differ between two testbed files, as ``key: before -> after``."""
-    old, new = (dict(_values(tomllib.loads(text))) for text in (before, after))
+    old, new = (_values_of(text) for text in (before, after))
     lines = [f"{key}: {old.get(key, NONE)} -> {new.get(key, NONE)}"
              for key in dict.fromkeys((*old, *new)) if old.get(key) != new.get(key)]  # fmt: skip
     return lines or [NOTHING]
+
+
+def _values_of(text: str) -> dict[str, str]:
+    """Return the values of a testbed file by key; a run of elsewhere may hold what is none."""
+    try:
+        return dict(_values(tomllib.loads(text)))
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return {"file": "not TOML"}
 
 
 def _values(node: object, path: str = "") -> Iterator[tuple[str, str]]:

@@ -16,6 +16,7 @@ from equipoise.model.logged_run import LoggedRun
 
 NAMES = (*COM, *INERTIA[:3])
 FEWEST = 2
+MOST = 1e9  # m, kg m2, chosen: beyond it no number is of a platform, and no axis can show it
 
 
 def write_trend(book: Logbook, runs: Sequence[LoggedRun], path: Path) -> None:
@@ -54,8 +55,9 @@ def _trend(book: Logbook, runs: Sequence[LoggedRun], rows: Sequence[Row]) -> tre
 
 
 def _row(book: Logbook, run: LoggedRun) -> Row:
-    """Return values and sd of a run; NaN for what it did not observe."""
+    """Return values and sd of a run; NaN for what it did not observe, or cannot have."""
     known = {p.name: p for p in book.numbers(run.name, "home") if p.observable}
     found = [(known[n].value, known[n].sd) if n in known else (np.nan, np.nan) for n in NAMES]
     values, sd = np.array(found).T
-    return values, np.where(np.isfinite(sd), sd, 0.0)
+    values = np.where(np.abs(values) < MOST, values, np.nan)
+    return values, np.where(sd < MOST, sd, 0.0)

@@ -3,7 +3,6 @@
 import base64
 from collections.abc import Iterable, Mapping, Sequence
 from functools import singledispatch
-from html import escape
 from importlib.resources import files
 from string import Template
 
@@ -22,6 +21,7 @@ from equipoise.app.text.blocks import (
     Section,
     Table,
 )
+from equipoise.app.text.escaping import for_html
 
 Images = Mapping[str, bytes]  # PNG, by name
 TEMPLATE = Template((files("equipoise.app.report") / "page.html").read_text(encoding="utf-8"))
@@ -30,7 +30,7 @@ TEMPLATE = Template((files("equipoise.app.report") / "page.html").read_text(enco
 def html(document: Document, images: Images) -> str:
     """Return the file's text."""
     body = "\n".join(_section(section, images) for section in document.sections)
-    title, platform = escape(document.title), escape(document.platform)
+    title, platform = for_html(document.title), for_html(document.platform)
     return TEMPLATE.substitute(title=title, platform=platform, body=body)
 
 
@@ -40,7 +40,7 @@ def fragment(blocks: Iterable[Block]) -> str:
 
 
 def _section(section: Section, images: Images) -> str:
-    head = f"<h2>{escape(section.title)}</h2>" if section.title else ""
+    head = f"<h2>{for_html(section.title)}</h2>" if section.title else ""
     body = "".join(
         _figure(b, images[b.name]) if isinstance(b, Figure) else _set(b) for b in section.blocks
     )
@@ -49,8 +49,8 @@ def _section(section: Section, images: Images) -> str:
 
 def _figure(figure: Figure, image: bytes) -> str:
     data = base64.b64encode(image).decode()
-    source = f'<img alt="{escape(figure.name)}" src="data:image/png;base64,{data}">'
-    return f"<figure>{source}<figcaption>{escape(figure.caption)}</figcaption></figure>"
+    source = f'<img alt="{for_html(figure.name)}" src="data:image/png;base64,{data}">'
+    return f"<figure>{source}<figcaption>{for_html(figure.caption)}</figcaption></figure>"
 
 
 @singledispatch
@@ -60,42 +60,42 @@ def _set(block: Block) -> str:
 
 @_set.register
 def _(block: Heading) -> str:
-    return f"<h3>{escape(block.text)}</h3>"
+    return f"<h3>{for_html(block.text)}</h3>"
 
 
 @_set.register
 def _(block: Paragraph) -> str:
     tone = "" if block.tone == "plain" else f' class="{block.tone}"'
-    return f"<p{tone}>{escape(block.text)}</p>"
+    return f"<p{tone}>{for_html(block.text)}</p>"
 
 
 @_set.register
 def _(block: Claim) -> str:
-    return f'<p class="verdict {block.tone}">{escape(block.text)}</p>'
+    return f'<p class="verdict {block.tone}">{for_html(block.text)}</p>'
 
 
 @_set.register
 def _(block: Items) -> str:
-    lines = (f'<li class="{item.tone}">{escape(item.text)}</li>' for item in block.items)
+    lines = (f'<li class="{item.tone}">{for_html(item.text)}</li>' for item in block.items)
     return f"<ul>{''.join(lines)}</ul>"
 
 
 @_set.register
 def _(block: Pairs) -> str:
-    pairs = (f"<dt>{escape(k)}</dt><dd>{escape(v)}</dd>" for k, v in block.pairs)
+    pairs = (f"<dt>{for_html(k)}</dt><dd>{for_html(v)}</dd>" for k, v in block.pairs)
     return f"<dl>{''.join(pairs)}</dl>"
 
 
 @_set.register
 def _(block: Moment) -> str:
-    when, what = f"<time>{escape(block.time)}</time>", f"<b>{escape(block.what)}</b>"
-    return f'<div class="moment">{when}{what}<span>{escape(block.text)}</span></div>'
+    when, what = f"<time>{for_html(block.time)}</time>", f"<b>{for_html(block.what)}</b>"
+    return f'<div class="moment">{when}{what}<span>{for_html(block.text)}</span></div>'
 
 
 @_set.register
 def _(block: Table) -> str:
-    title = f"<h3>{escape(block.title)}</h3>" if block.title else ""
-    notes = "".join(f'<p class="note">{escape(note)}</p>' for note in block.notes)
+    title = f"<h3>{for_html(block.title)}</h3>" if block.title else ""
+    notes = "".join(f'<p class="note">{for_html(note)}</p>' for note in block.notes)
     return title + (_grid(block) if block.rows else "") + notes
 
 
@@ -107,7 +107,7 @@ def _grid(block: Table) -> str:
 def _head(columns: Sequence[Column]) -> str:
     if not any(column.title for column in columns):
         return ""
-    cells = (f"<th{_kind(column)}>{escape(column.title)}</th>" for column in columns)
+    cells = (f"<th{_kind(column)}>{for_html(column.title)}</th>" for column in columns)
     return f"<thead><tr>{''.join(cells)}</tr></thead>"
 
 
@@ -124,4 +124,4 @@ def _kind(column: Column) -> str:
 
 
 def _lines(text: str) -> str:
-    return "<br>".join(map(escape, text.split("\n")))
+    return "<br>".join(map(for_html, text.split("\n")))

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from equipoise.app.report.run_record import Logged, RunRecord
+from equipoise.app.text.escaping import for_json
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.documents.run_file import text_of_run
 from equipoise.io.documents.run_folder import TESTBED
@@ -25,7 +26,7 @@ def files_of(logged: Logged, record: RunRecord, name: str) -> dict[str, str | by
     files: dict[str, str | bytes] = {TESTBED: testbed}
     if logged.recording is not None and not logged.is_file:
         files[RECORDING] = csv_text(native_columns(logged.recording))
-    return files | {RUN: text_of_run(entry(logged, record, name, testbed))}
+    return files | {RUN: for_json(text_of_run(entry(logged, record, name, testbed)))}
 
 
 def hashes(files: Mapping[str, str | bytes]) -> dict[str, str]:

@@ -10,16 +10,14 @@ from equipoise.app.report.build import report
 from equipoise.app.report.html import html
 from equipoise.app.report.pdf import can_set, pdf
 from equipoise.app.report.run_record import Output, RunRecord
-from equipoise.app.text.blocks import Document, document_of_text, printed, text_of_document
+from equipoise.app.report.saved_report import DOCUMENT, PNG, SVG, saved_document, saved_figure
+from equipoise.app.text.blocks import Document, printed, text_of_document
 from equipoise.app.text.json_document import dump
-from equipoise.io.documents.run_folder import A_RUN
 from equipoise.io.files.atomic_file import write_folder
-from equipoise.io.files.source_file import read_bytes
 
 Files = dict[str, str | bytes]
 Images = Mapping[str, Mapping[str, bytes]]  # by kind of file and by name
-KINDS = ("png", "svg")
-DOCUMENT = "report.json"
+KINDS = (PNG, SVG)
 
 
 def write_output(output: Output, folder: Path) -> list[Path]:
@@ -55,11 +53,11 @@ def set_document(document: Document, images: Images) -> Files:
 def set_again(folder: Path) -> list[Path]:
     """Write the report of a run anew from its blocks and figures, and return the paths.
 
-    Raises InputError if they are not there.
+    Raises InputError if they are not there, or are not what a run writes.
     """
-    document = document_of_text(read_bytes(folder / DOCUMENT, A_RUN), str(folder / DOCUMENT))
+    document = saved_document(folder)
     names = document.figures
-    images = {k: {n: read_bytes(folder / place(n, k), A_RUN) for n in names} for k in KINDS}
+    images = {k: {n: saved_figure(folder, folder / place(n, k)) for n in names} for k in KINDS}
     return write_folder(folder, set_document(document, images))
 
 

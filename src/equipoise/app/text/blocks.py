@@ -9,6 +9,7 @@ from typing import Annotated, Literal, TypeVar
 
 from pydantic import Field, TypeAdapter, ValidationError
 
+from equipoise.app.text.escaping import for_json
 from equipoise.app.text.numbers import typeset
 from equipoise.model.errors import InputError
 
@@ -222,7 +223,7 @@ _DOCUMENT = TypeAdapter(Document)
 
 def text_of_document(document: Document) -> str:
     """Return a document as JSON."""
-    return _DOCUMENT.dump_json(document, indent=1).decode()
+    return for_json(_DOCUMENT.dump_json(document, indent=1).decode())
 
 
 def document_of_text(text: str | bytes, source: str) -> Document:

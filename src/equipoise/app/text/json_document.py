@@ -5,6 +5,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from equipoise.app.text.escaping import for_json
 from equipoise.app.text.json_shape import (
     COUNT,
     FLAG,
@@ -29,7 +30,7 @@ from equipoise.model.recording import CHANNELS, Recording
 
 def dump(document: View) -> str:
     """Return one JSON document as text."""
-    return json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False)
+    return for_json(json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False))
 
 
 def finite(value: Any) -> Any:

@@ -23,6 +23,8 @@ from equipoise.model.logged_run import RUN, Build, LoggedRun, ending_of
 INDEX = "logbook.sqlite"
 PATIENCE = 30.0  # s, chosen: for another process to end what it writes
 REMADE = "a logbook's index; delete it, and it is made anew from the folders of the runs"
+LATEST = 32_503_680_000.0  # s since 1970, chosen: the year 3000, which every clock can show
+A_TIME = "a time from 1970 to 2999, such as 2026-03-01T09:00:00+01:00"
 COLUMNS = ("name", "kind", "made_at", "platform", "configuration", "method", "bench", "outcome",
            "sentence", "temperature", "provenance")  # fmt: skip
 
@@ -114,12 +116,22 @@ class Logbook:
         # Where nothing is new, nothing needs to be read: listing does without what reading needs.
         from equipoise.io.documents.run_file import read_run
 
+        # A run may come from anywhere: whatever is wrong with it costs the list that run alone.
+        self._index.execute("SAVEPOINT one")
         try:
             run = read_run(self.folder / name)
-            utc = datetime.fromisoformat(run.made_at).timestamp()
-        except (InputError, ValueError) as error:
-            self.unread.append(str(error))
-            return
+            self._insert(name, stamp, _utc(run.made_at, str(self.folder / name)), run)
+        except InputError as error:
+            self._leave_out(str(error))
+        except (ValueError, ArithmeticError, sqlite3.DataError) as error:
+            self._leave_out(f"{self.folder / name}: {error}")
+        self._index.execute("RELEASE one")
+
+    def _leave_out(self, sentence: str) -> None:
+        self._index.execute("ROLLBACK TO one")
+        self.unread.append(sentence)
+
+    def _insert(self, name: str, stamp: int, utc: float, run: LoggedRun) -> None:
         values = (*(getattr(run, c) for c in COLUMNS[:-1]), json.dumps(dict(run.provenance)))
         marks = ", ".join("?" * (len(COLUMNS) + 2))
         names = ", ".join((*COLUMNS, "stamp", "utc"))
@@ -142,6 +154,17 @@ class Logbook:
             self._index.execute("ROLLBACK")
             raise
         self._index.execute("COMMIT")
+
+
+def _utc(made_at: str, where: str) -> float:
+    """Return a time as s since 1970; InputError for one at which no run was made."""
+    try:
+        utc = datetime.fromisoformat(made_at).astimezone().timestamp()
+    except (ValueError, ArithmeticError, OSError) as error:
+        raise InputError(f"{where}: made_at", str(error), A_TIME) from error
+    if not 0 <= utc < LATEST:
+        raise InputError(f"{where}: made_at", f"'{made_at}'", A_TIME)
+    return utc
 
 
 def _stamps(folder: Path) -> Iterator[tuple[str, int]]:

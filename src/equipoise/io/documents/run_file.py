@@ -39,4 +39,7 @@ def read_run(folder: Path) -> LoggedRun:
         first = error.errors()[0]
         where = ": ".join((str(path), *map(str, first["loc"])))
         raise InputError(where, first["msg"], "a run, equipoise/run/1") from error
+    for p in (*document.run.parameters, *document.run.standing):
+        if p.sd < 0:
+            raise InputError(f"{path}: sd of {p.name}", f"{p.sd:g}", "one that is not negative")
     return replace(document.run, name=folder.name)

@@ -10,8 +10,8 @@ A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
 
 
 def read_configuration(folder: Path) -> str:
-    """Return the text of the testbed that a run was made with; empty if it is not there."""
+    """Return the text of the testbed that a run was made with; empty if there is none."""
     try:
-        return read_text(folder / TESTBED, "a testbed file")
+        return read_text(folder / TESTBED, A_RUN)
     except InputError:
         return ""

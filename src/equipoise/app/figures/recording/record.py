@@ -14,6 +14,7 @@ from equipoise.app.figures.recording.record_marks import (
     write_list,
 )
 from equipoise.app.figures.recording.record_panels import panels_of
+from equipoise.app.text.escaping import for_figure
 from equipoise.model.arrays import Vector3
 from equipoise.model.finding import Finding
 from equipoise.model.recording import Recording
@@ -60,4 +61,4 @@ def draw(recording: Recording, found: Sequence[Finding] = (), up: Vector3 | None
 def _title(recording: Recording) -> str:
     start, end = recording.span
     source = recording.source.replace("\\", "/").rsplit("/", 1)[-1] or "recording"
-    return f"{source}: {start:.4g} to {end:.6g} s"
+    return f"{for_figure(source)}: {start:.4g} to {end:.6g} s"

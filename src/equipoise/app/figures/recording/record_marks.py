@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import GREY, ORANGE
+from equipoise.app.text.escaping import for_figure
 from equipoise.model.finding import Finding
 
 ODD = {"wrong": ORANGE, "problem": ORANGE, "motion": GREY, "content": GREY, "mended": GREY}
@@ -50,7 +51,7 @@ def number(axes: Axes, marked: Sequence[Finding], span: tuple[float, float]) -> 
     for k, finding in enumerate(marked, start=1):
         assert finding.span is not None  # only findings with a span are numbered
         at = min(max(0.5 * sum(finding.span), span[0]), span[1])
-        text = f"{k} {finding.label}".strip()
+        text = for_figure(f"{k} {finding.label}")
         half = 0.5 * LETTER * len(text) * length
         shelf = next((s for s in range(SHELVES) if free[s] <= at - half), None)
         if shelf is None:
@@ -72,7 +73,7 @@ def listed(found: Sequence[Finding], marked: Sequence[Finding]) -> list[tuple[st
     lines: list[tuple[str, str, str]] = []
     for k, finding in enumerate([*marked, *order], start=1):
         sign, head = SIGNS[finding.kind], str(k) if k <= len(marked) else ""
-        for text in textwrap.wrap(finding.sentence, CHARACTERS):
+        for text in textwrap.wrap(for_figure(finding.sentence), CHARACTERS):
             lines.append((sign, head, text))
             sign = head = ""
     return lines

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 
 from equipoise.app.figures.base.strokes import course, dots
 from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ
+from equipoise.app.text.escaping import for_figure
 from equipoise.assessment.findings.channel_content import GAP
 from equipoise.assessment.findings.motion_range import AXES as BODY_AXES
 from equipoise.assessment.findings.motion_range import heading_rate, most_upright
@@ -119,7 +120,7 @@ def _range(values: Series1) -> tuple[float, float]:
 def _masses(masses: Samples, names: tuple[str, ...]) -> Panel:
     def draw(axes: Axes) -> None:
         for i, name in enumerate(names):
-            course(axes, masses.t, masses.values[:, i] / MM, SIX[i % len(SIX)], name)
+            course(axes, masses.t, masses.values[:, i] / MM, SIX[i % len(SIX)], for_figure(name))
         axes.set_ylabel("masses, mm")
         _legend(axes)
 

@@ -10,6 +10,7 @@ from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import BAND, GREY, WIDE, XYZ, styled
+from equipoise.app.text.escaping import for_figure
 from equipoise.model.arrays import Series, Series1
 from equipoise.model.units import UM
 
@@ -52,7 +53,7 @@ def draw(trend: Trend) -> Figure:
     grid[-1][0].xaxis.set_major_formatter(ConciseDateFormatter(locator))
     if warm:
         grid[-1][1].set_xlabel("temperature, degC")
-    figure.suptitle(f"{trend.platform}, masses at home", x=0.01, ha="left", fontsize=10)
+    figure.suptitle(f"{for_figure(trend.platform)}, masses at home", x=0.01, ha="left", fontsize=10)
     figure.align_ylabels(grid[:, 0])
     return figure
 
