@@ -41,7 +41,7 @@ class Page:
     def __init__(self, pipe: Any) -> None:
         self._pipe, self._reads = pipe, True
         self.state: dict[str, Any] = {}
-        self.told: list[str] = []
+        self.steps: list[str] = []
         self.t, self.ready, self.ended = 0.0, False, False
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
@@ -70,7 +70,7 @@ class Page:
         if kind == "state":
             self.state, self.t = what, max(self.t, what["t"])
         elif kind == "step":
-            self.told.append(what["sentence"])
+            self.steps.append(what["sentence"])
         self.ready |= kind == "ready"
 
 
@@ -113,7 +113,7 @@ def _struck(
     time.sleep(moment)
     shown, size = page.t, path.stat().st_size
     _happens(folder, runner, page, fault)
-    wrong = _told(page, path, fault, size)
+    wrong = _untrue(page, path, fault, size)
     page.stop_reading()
     pipe.close()
     process.join(LEFT)
@@ -140,7 +140,7 @@ def _happens(folder: Path, runner: tuple[Any, Any], page: Page, fault: str) -> N
         time.sleep(HELD)
 
 
-def _told(page: Page, path: Path, fault: str, size: int) -> list[str]:
+def _untrue(page: Page, path: Path, fault: str, size: int) -> list[str]:
     """Return what the page was shown that is not so."""
     if fault == KILL:
         return ["it goes on"] * (not page.until(lambda: page.ended, LEFT))
@@ -148,7 +148,7 @@ def _told(page: Page, path: Path, fault: str, size: int) -> list[str]:
         return []
     if fault == DISK_FULL:
         page.until(lambda: page.state["recording"] is None, LEFT)
-        said = any("recording stopped" in told and str(path) in told for told in page.told)
+        said = any("recording stopped" in step and str(path) in step for step in page.steps)
         wrong = ["it records, the page says"] * (page.state["recording"] is not None)
         wrong += ["no sentence"] * (not said)
     else:

@@ -156,7 +156,7 @@ def of_calibration(left: Left) -> tuple[list[str], float]:
 
 
 def of_runs(left: Left) -> tuple[list[str], float]:
-    """Return what is wrong with kept runs: each is whole or not there, and no more are told of."""
+    """Return what is wrong with kept runs: each is whole or not there, and no more are reported."""
     wrong: list[str] = []
     runs = left.folder / "runs"
     kept = [p for p in runs.iterdir() if not p.name.startswith(".")] if runs.exists() else []
@@ -164,8 +164,8 @@ def of_runs(left: Left) -> tuple[list[str], float]:
         whole = {f"{n}.txt": f"{n} " * 3000 for n in range(FILES)}
         if {path.name: path.read_text() for path in run.iterdir()} != whole:
             wrong.append(f"{run.name} is not whole")
-    told = left.program.said.count("kept ")
-    return wrong + [f"{told} kept, it says; there are {len(kept)}"] * (told > len(kept)), 0.0
+    said = left.program.said.count("kept ")
+    return wrong + [f"{said} kept, it says; there are {len(kept)}"] * (said > len(kept)), 0.0
 
 
 def of_logbook(left: Left) -> tuple[list[str], float]:

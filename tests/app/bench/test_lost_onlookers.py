@@ -121,9 +121,9 @@ def test_what_a_guard_raises_stops_the_reading():
 
 
 def test_a_replay_goes_on_without_a_view_that_failed(capsys):
-    recording, heard = SimulatedBench(BED, 1).read(3.0), []
-    replayed(BED, recording, Pace(0.0), {"the live view": fails, "the terminal": heard.append})
-    assert sum(len(rows.rate) for rows in heard) == len(recording.rate)
+    recording, received = SimulatedBench(BED, 1).read(3.0), []
+    replayed(BED, recording, Pace(0.0), {"the live view": fails, "the terminal": received.append})
+    assert sum(len(rows.rate) for rows in received) == len(recording.rate)
     said = capsys.readouterr().err
     assert said.count("the live view: failed") == 1
 

@@ -11,14 +11,14 @@ def failing(_word):
 
 
 def test_one_that_fails_is_dropped_and_the_others_get_all():
-    lost, heard = [], []
+    lost, received = [], []
     onlookers = Onlookers(lambda name, error: lost.append(why_lost(name, error)))
-    onlookers.add("first", heard.append)
+    onlookers.add("first", received.append)
     onlookers.add("view", failing)
-    onlookers.add("last", heard.append)
+    onlookers.add("last", received.append)
     for word in "ab":
         onlookers.hand_on(lambda each, word=word: each(word))
-    assert heard == ["a", "a", "b", "b"]
+    assert received == ["a", "a", "b", "b"]
     assert len(lost) == 1
     assert lost[0].startswith("view: failed, the bench goes on")
     assert len(onlookers) == 2

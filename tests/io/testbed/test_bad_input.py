@@ -233,7 +233,7 @@ def test_a_bad_text_is_not_written(tmp_path) -> None:
     ["\\u001b[31mred", "a\\u0007b", "a\\nb", "a\\u0000b", "\\u202Etxt.elif", "a\\u200Bb",
      "\\u2066a", "a\\u2028b", "\\uFEFFa", "a\\u00ADb", "\\uE000"],
 )  # fmt: skip
-def test_a_name_with_characters_that_are_not_seen_is_refused(escaped):
+def test_a_name_with_invisible_characters_is_refused(escaped):
     """Colours of a terminal, a bell, an override of the direction; the sentence shows none."""
     with pytest.raises(InputError) as caught:
         parse_testbed(GOOD.replace('name = "t"', f'name = "{escaped}"'), "bed.toml")

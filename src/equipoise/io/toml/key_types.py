@@ -38,14 +38,21 @@ def _tensor(value: Any) -> Any:
 
 def _visible(text: str) -> str:
     """Return a text as it is, if each of its characters is seen, and none turns the others."""
-    if any(unicodedata.category(character) in UNSEEN for character in text):
-        raise PydanticCustomError("unseen", SEEN)
+    if any(unicodedata.category(character) in INVISIBLE for character in text):
+        raise PydanticCustomError("unseen", VISIBLE)
     return text
 
 
 ITSELF = "."
-UNSEEN = ("Cc", "Cf", "Cs", "Co", "Zl", "Zp")  # control, format, no character, private, line ends
-SEEN = "text in one line, without control, direction or other invisible characters"
+INVISIBLE = (
+    "Cc",
+    "Cf",
+    "Cs",
+    "Co",
+    "Zl",
+    "Zp",
+)  # control, format, no character, private, line ends
+VISIBLE = "text in one line, without control, direction or other invisible characters"
 TENSOR = "three moments [xx, yy, zz], or three rows [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]"
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]

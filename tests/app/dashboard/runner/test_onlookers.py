@@ -107,7 +107,7 @@ def test_charts_that_fail_end_alone_and_page_and_record_say_so(room, monkeypatch
     assert len(room.runner._display.observed) > 20
 
 
-def test_an_estimate_that_fails_again_and_again_is_told_once(room, monkeypatch):
+def test_an_estimate_that_fails_again_and_again_is_reported_once(room, monkeypatch):
     monkeypatch.setattr(display, "grown", fails)
     room.turn(20)
     assert [step["sentence"] for step in room.reported.steps] == [
