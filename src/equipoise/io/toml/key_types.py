@@ -51,7 +51,7 @@ INVISIBLE = (
     "Co",
     "Zl",
     "Zp",
-)  # control, format, no character, private, line ends
+)  # format, line ends and the like
 VISIBLE = "text in one line, without control, direction or other invisible characters"
 TENSOR = "three moments [xx, yy, zz], or three rows [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]"
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
