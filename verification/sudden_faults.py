@@ -140,9 +140,11 @@ def of_bench(left: Left) -> tuple[list[str], float]:
     answers = answers_of(left.folder)
     if goes_on(answers):
         wrong.append("masses go on: " + "; ".join(answers))
-    report = left.folder / OUT / "balance.json"
     if (left.folder / OUT).exists():
-        json.loads(report.read_text())  # whole, or the folder is not there
+        try:
+            json.loads((left.folder / OUT / "balance.json").read_text())
+        except (OSError, ValueError) as error:
+            wrong.append(f"a report that is not whole: {error}")
     return wrong, lost
 
 
@@ -248,7 +250,7 @@ def _hidden(folder: Path) -> list[str]:
     for place in (folder, folder / "runs", folder / OUT):
         if place.is_dir():
             write_whole(place / "after.txt", "written by the next one")
-            wrong += [f"left: {p.name}" for p in place.glob(".equipoise-*")]
+            wrong += [f"left: {p.name}" for p in place.glob(".*")]
     return wrong
 
 
