@@ -180,7 +180,7 @@ def of_logbook(left: Left) -> tuple[list[str], float]:
 ON_BENCH = {
     "record": Action(
         ("record", TESTBED, "--out", RECORD, "--duration-s", "12"),
-        12.0, 40, nothing, of_bench, True,
+        12.0, 0, nothing, of_bench, True,
     ),
     "balance --bench": Action(
         ("balance", TESTBED, "--bench", "--yes", "--record", RECORD, "--out", OUT),

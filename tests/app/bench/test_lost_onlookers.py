@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.app.bench.explained_conversation import Conversations
 from equipoise.app.live.observed_bench import WatchedBench
 from equipoise.app.live.pace import Pace
 from equipoise.app.live.replay import replayed
+from equipoise.hardware.transport.tapped_port import TappedPort
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.presets import read_preset
@@ -16,7 +18,7 @@ from equipoise.model.errors import BenchStopped
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 from equipoise.simulation.bench import SimulatedBench
-from tests.support.emulated_lab import lab, over_tcp
+from tests.support.emulated_lab import Lab, lab, over_tcp
 from tests.support.recorded_events import events_of
 
 BED = replace(over_tcp(read_preset("nanosat")), tilt_limit=3.0)
@@ -101,6 +103,51 @@ def test_an_interlock_halts_the_masses_before_it_is_noted():
         found.keeper.listen(slow)
         found.keeper.halt(Reason(Interlock.RECORD_LOST, ("the platform is touched",)))
     assert CANCEL in slow.sent["interlock"]
+
+
+class ExplainedLab(Lab):
+    """A lab whose conversations are printed, which fails from the start or after some lines."""
+
+    lines = 0
+
+    def _print(self, _line):
+        self.lines -= 1
+        if self.lines < 0:
+            raise OSError(28, "No space left on device")
+
+    def _open(self, address):
+        hardware = self.emulated.testbed().hardware
+        self._conversations = getattr(self, "_conversations", Conversations(hardware, self._print))
+        return self._conversations.open(address)
+
+
+@pytest.mark.parametrize("lines", [0, 1, 40])
+def test_a_conversation_that_cannot_be_printed_takes_no_port_with_it(lines, capsys):
+    found = ExplainedLab(BED, 1)
+    found.lines = lines
+    try:
+        found.bench.start()
+        found.bench.watch()
+        found.bench.move({"x": 4 * MM})
+        found.bench.read(2.0)
+        assert found.keeper.links.positions["x"] == pytest.approx(4 * MM, abs=2e-6)
+    finally:
+        found.keeper.close()
+        found.emulated.close()
+    assert capsys.readouterr().err.count("the conversation: failed") == 1
+
+
+def test_what_is_sent_is_sent_before_it_is_shown():
+    """It may be a halt."""
+    sent = []
+
+    class Wire:
+        def send(self, data):
+            sent.append(data)
+
+    with pytest.raises(ZeroDivisionError):
+        TappedPort(Wire(), fails).send(CANCEL)
+    assert sent == [CANCEL]
 
 
 def test_a_guard_in_front_of_an_onlooker_gets_the_rows_whatever_fails():

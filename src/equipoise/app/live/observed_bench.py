@@ -1,11 +1,10 @@
 """A bench whose rows an onlooker gets soon after they arrive, also within a long reading."""
 
 from collections.abc import Callable
-from contextlib import suppress
 
 from equipoise.app.bench.bench_proxy import OuterBench
-from equipoise.app.console.terminal import complain
-from equipoise.hardware.bench.onlookers import Onlookers, why_lost
+from equipoise.app.bench.lost_onlookers import complain_of
+from equipoise.hardware.bench.onlookers import Onlookers
 from equipoise.model.bench import Bench
 from equipoise.model.bench_requests import check_duration
 from equipoise.model.recording import Recording, joined
@@ -60,9 +59,3 @@ class WatchedBench(OuterBench):
         if self._guard is not None:
             self._guard(rows)
         self._onlookers.hand_on(lambda onlooker: onlooker(rows))
-
-
-def complain_of(name: str, error: Exception) -> None:
-    """Report an onlooker that failed, where the terminal can still take it."""
-    with suppress(OSError):
-        complain(why_lost(name, error))

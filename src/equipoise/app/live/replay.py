@@ -10,9 +10,10 @@ import numpy as np
 from rich.console import Console
 from rich.live import Live
 
+from equipoise.app.bench.lost_onlookers import complain_of
 from equipoise.app.console.terminal import stdout
 from equipoise.app.live.latest_rows import Newest, after, masses_of, tilt_of, time_of
-from equipoise.app.live.observed_bench import Onlooker, complain_of
+from equipoise.app.live.observed_bench import Onlooker
 from equipoise.app.live.pace import Pace
 from equipoise.app.live.status_block import TerminalView
 from equipoise.hardware.bench.onlookers import Onlookers
