@@ -112,7 +112,7 @@ class Runner:
             self.recorder.end()
         except EquipoiseError as error:
             return str(error)
-        return "" if name is None else f"{name}: the recording ended with what it was made of."
+        return "" if name is None else f"{name}: the recording ended: something else is shown now."
 
     # --- Time passes -------------------------------------------------------------------------
 
