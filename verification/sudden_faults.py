@@ -164,7 +164,7 @@ def of_runs(left: Left) -> tuple[list[str], float]:
     kept = [p for p in runs.iterdir() if not p.name.startswith(".")] if runs.exists() else []
     for run in kept:
         whole = {f"{n}.txt": f"{n} " * 3000 for n in range(FILES)}
-        if {path.name: path.read_text() for path in run.iterdir()} != whole:
+        if {p.name: p.read_text() if p.is_file() else "" for p in run.iterdir()} != whole:
             wrong.append(f"{run.name} is not whole")
     said = left.program.said.count("kept ")
     return wrong + [f"{said} kept, it says; there are {len(kept)}"] * (said > len(kept)), 0.0
