@@ -130,7 +130,8 @@ def of_record(left: Left) -> tuple[list[str], float]:
         return [*wrong, "no row"], 0.0
     if np.ptp(stamps) > left.program.moment.seconds + 120.0:
         wrong.append(f"a span of {np.ptp(stamps):.0f} s")
-    costs = left.struck and fault in (KILL, DISK_FULL)
+    # A record that was ended as it should be has lost nothing: what comes after is the report.
+    costs = left.struck and fault in (KILL, DISK_FULL) and not found.whole
     return wrong, max(left.program.at - float(stamps.max()), 0.0) if costs else 0.0
 
 
