@@ -4,13 +4,10 @@
 board is asked, as by hand at a terminal, where its masses are: do they stand?
 """
 
-import os
-import re
 import signal
 import subprocess
 import sys
 import tempfile
-import termios
 import time
 from collections import Counter
 from collections.abc import Sequence
@@ -20,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from equipoise.app.cli import BY_HAND
-from equipoise.io.testbed.testbed_file import read_testbed
+from verification.emulated_board import answers_of, emulating, goes_on
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 BEGUN = "begun"
@@ -44,9 +41,6 @@ COMMANDS = {  # and until when a moment is drawn, s; chosen: most of the work, i
 }
 ON_BENCH = "--bench"
 LEFT = 60.0  # s, chosen: for a command to end
-SETTLED = 0.5  # s, chosen: for a deceleration, and between two answers about masses that stand
-ANSWERS = 4  # chosen: a leg that were still to come takes a quarter second
-POSITION = re.compile(rb"<(\w+)[^|>]*\|MPos:([^|>]+)[^>]*>")  # Grbl's answer to a question mark
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +71,7 @@ class Interrupted:
     @property
     def goes_on(self) -> bool:
         """Say whether a mass moves afterwards."""
-        return len({answer.split()[-1] for answer in self.answers}) > 1
+        return goes_on(self.answers)
 
 
 def interrupted(seed: int) -> Interrupted:
@@ -135,42 +129,10 @@ def _over_after(command: "subprocess.Popen[str]", moment: float) -> bool:
 
 
 def _on_a_bench(folder: Path, name: str, moment: float, seed: int) -> Interrupted:
-    words = ("emulate", "nanosat", "--out", "there.toml", "--seed", str(seed))
-    with _begun(folder, *words) as there:
-        try:
-            assert there.stdout is not None
-            assert any("wrote" in line for line in there.stdout)
-            found = _ended(folder, name, moment)
-            return _examined(folder, found)
-        finally:
-            there.send_signal(signal.SIGINT)
-
-
-def _examined(folder: Path, found: Interrupted) -> Interrupted:
     """Add whether the bench's masses stand."""
-    hardware = read_testbed(folder / "there.toml").hardware
-    assert hardware is not None
-    kind, _, port = hardware.boards[0].port.address.partition(":")
-    assert kind == "serial"
-    answers = [_answer(port) for _ in range(ANSWERS)]
-    return replace(found, answers=tuple(answers))
-
-
-def _answer(port: str) -> str:
-    """Ask a Grbl board, a while later, for its state and where its masses are.
-
-    What it had answered to the command that was interrupted is thrown away.
-    """
-    time.sleep(SETTLED)
-    board, received = os.open(port, os.O_RDWR | os.O_NOCTTY), b""
-    try:
-        termios.tcflush(board, termios.TCIFLUSH)
-        os.write(board, b"?")
-        while not (found := POSITION.search(received)):
-            received += os.read(board, 4096)
-    finally:
-        os.close(board)
-    return b" ".join(found.groups()).decode()
+    with emulating(folder, seed):
+        found = _ended(folder, name, moment)
+        return replace(found, answers=answers_of(folder))
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:

@@ -120,7 +120,7 @@ def test_a_failing_observer_is_reported_once_and_the_bench_goes_on(capsys):
     assert len(requested) == 1
     reported = capsys.readouterr().err
     assert reported.count("\n") == 1
-    assert "the view of the bench has failed, the bench goes on" in reported
+    assert "the view of the bench: failed, the bench goes on without" in reported
 
 
 def test_ctrl_c_is_no_failure_of_an_onlooker():

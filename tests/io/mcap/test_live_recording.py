@@ -157,6 +157,8 @@ def test_a_full_disk_stops_with_one_sentence_and_an_intact_file(tmp_path):
     observed = read_recording(path)
     wanted = rows(0, len(observed.rate))
     assert len(observed.rate) > 100
+    kept_by = float(sentence.partition("what had come by ")[2].partition(" s is kept")[0])
+    assert kept_by <= observed.rate.t[-1] < kept_by + 0.1  # s: ten rows came at that time
     np.testing.assert_array_equal(observed.rate.values, wanted.rate.values)
     np.testing.assert_array_equal(observed.attitude.values, wanted.attitude.values)
     assert 20_000 < path.stat().st_size <= 30_000
@@ -164,5 +166,6 @@ def test_a_full_disk_stops_with_one_sentence_and_an_intact_file(tmp_path):
 
 def test_no_space_at_all_is_the_same_error():
     """/dev/full answers every write with ENOSPC."""
-    with pytest.raises(RecordingStopped, match=os.strerror(errno.ENOSPC)):
+    with pytest.raises(RecordingStopped, match=os.strerror(errno.ENOSPC)) as caught:
         LiveRecording("/dev/full", OPENING)
+    assert "no row is kept" in str(caught.value)

@@ -226,3 +226,28 @@ def test_a_bad_text_is_not_written(tmp_path) -> None:
     with pytest.raises(InputError):
         write_testbed("name = 3", tmp_path / "out.toml")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "escaped",
+    ["\\u001b[31mred", "a\\u0007b", "a\\nb", "a\\u0000b", "\\u202Etxt.elif", "a\\u200Bb",
+     "\\u2066a", "a\\u2028b", "\\uFEFFa", "a\\u00ADb", "\\uE000"],
+)  # fmt: skip
+def test_a_name_with_invisible_characters_is_refused(escaped):
+    """Colours of a terminal, a bell, an override of the direction; the sentence shows none."""
+    with pytest.raises(InputError) as caught:
+        parse_testbed(GOOD.replace('name = "t"', f'name = "{escaped}"'), "bed.toml")
+    assert str(caught.value).isprintable()
+    assert caught.value.where == "bed.toml: name"
+    assert "invisible characters" in caught.value.wanted
+
+
+@pytest.mark.parametrize("name", ["Стенд", "卫星平台", "plate-forme nº 2", "منصة", "µSat"])
+def test_a_name_in_any_script_is_read(name):
+    assert parse_testbed(GOOD.replace('name = "t"', f'name = "{name}"'), "bed.toml").name == name
+
+
+@pytest.mark.parametrize("name", ["x\\u202E1", "x1\\n", "x\\u001b"])
+def test_a_name_of_a_mass_is_of_plain_letters(name):
+    with pytest.raises(InputError, match="a letter, then letters"):
+        parse_testbed(GOOD.replace('name = "x1"', f'name = "{name}"'), "bed.toml")

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from equipoise.app.bench.lost_onlookers import complain_of
+from equipoise.hardware.bench.onlookers import Onlookers
 from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.boards.registry import EXPLAINED
@@ -25,7 +27,10 @@ class Said:
 
 
 class Conversations:
-    """Prints who says what to whom; what is said again and again is said once, and counted."""
+    """Prints who says what to whom; what is said again and again is said once, and counted.
+
+    What cannot be printed ends the printing alone: devices hear and are heard all the same.
+    """
 
     def __init__(self, hardware: Hardware, print_line: Callable[[str], None]) -> None:
         devices = [*hardware.boards, *hardware.sensors]
@@ -36,17 +41,22 @@ class Conversations:
         self._endless = {unit.port.address: FIRST for unit in hardware.sensors}
         self._last: dict[tuple[str, str], Said] = {}
         self._print, self._clock = print_line, WallClock()
+        self._printing = Onlookers[Callable[[str], None]](complain_of)
+        self._printing.add("the conversation", print_line)
 
     def open(self, address: Address) -> Port:
         """Return the port at an address, open, and listened to."""
         port = open_port(address)
-        self._say(address.address, "--", "the port is open")
+        self._printing.hand_on(lambda _: self._say(address.address, "--", "the port is open"))
         words = self._words[address.address]
 
-        def tap(sent: bool, data: bytes) -> None:
+        def explain(sent: bool, data: bytes) -> None:
             for each in words.sent(data) if sent else words.received(data):
                 if sent or self._wanted(address.address):
                     self._say(address.address, THERE if sent else BACK, each)
+
+        def tap(sent: bool, data: bytes) -> None:
+            self._printing.hand_on(lambda _: explain(sent, data))
 
         return TappedPort(port, tap)
 

@@ -62,7 +62,8 @@ class KeptBench:
             opening = Opening(self.clock.begun_ns, text, wanted.testbed, drivers)
             keeper.listen(self._held.enter_context(LiveRecording(wanted.record, opening)))
         if wanted.live:
-            keeper.listen(self._held.enter_context(LiveView(self.clock.begun_ns, wanted.testbed)))
+            view = self._held.enter_context(LiveView(self.clock.begun_ns, wanted.testbed))
+            keeper.listen(view, "the live view")
         self._held.callback(keeper.close)  # comes first: masses stop, and the record has it
         return keeper
 
@@ -125,6 +126,8 @@ def real_bench(wanted: Wanted, let_go: Callable[[], None] | None = None) -> Gene
         if wanted.live:
             stderr().print(f"Foxglove WebSocket: {ADDRESS}; layout: {LAYOUT}", markup=False)
         yield bench
+        for sentence in bench.lost:
+            complain(sentence)
         for each in bench.health():
             stderr().print(each.sentence, style="red" if each.wrong else None, markup=False)
     finally:

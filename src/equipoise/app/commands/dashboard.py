@@ -50,6 +50,7 @@ def dashboard(
         is then needed to watch, too. Left out: this computer alone.
     """
     from equipoise.app.arguments.checks import seed_of
+    from equipoise.io.formats.optional_libraries import extra_library
 
     if not 0 <= port < 65536:
         raise InputError("--port", str(port), "0 to 65535")
@@ -57,6 +58,7 @@ def dashboard(
         raise InputError("--expose", f"'{expose}'", "one address of this computer")
     opening = _opening(shown, testbed, seed_of(seed), bench, reading)
     with busy("starting the dashboard", announce=False):
+        extra_library("nicegui", "dashboard", "a page to serve", "dashboard")
         from equipoise.app.dashboard.server.session import open_session
 
         session = open_session(opening, expose or LOOPBACK, port, expose is not None)

@@ -44,12 +44,12 @@ def replay(
     recording = fitting_recording_of(file, reading, bed)
     pace, zero_ns = begun(recording, speed)
     with ExitStack() as stack:
-        onlookers: list[Onlooker] = [stack.enter_context(shown_lines(bed))]
+        onlookers: dict[str, Onlooker] = {"the terminal": stack.enter_context(shown_lines(bed))}
         if foxglove:
             from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView
 
             view = stack.enter_context(LiveView(zero_ns, bed))
             stdout().print(f"Foxglove WebSocket: {view.address}; layout: {LAYOUT}")
-            onlookers.append(view.rows)
+            onlookers["the live view"] = view.rows
         replayed(bed, recording, pace, onlookers)
     return 0

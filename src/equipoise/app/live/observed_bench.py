@@ -3,7 +3,8 @@
 from collections.abc import Callable
 
 from equipoise.app.bench.bench_proxy import OuterBench
-from equipoise.app.console.terminal import complain
+from equipoise.app.bench.lost_onlookers import complain_of
+from equipoise.hardware.bench.onlookers import Onlookers
 from equipoise.model.bench import Bench
 from equipoise.model.bench_requests import check_duration
 from equipoise.model.recording import Recording, joined
@@ -16,8 +17,9 @@ class WatchedBench(OuterBench):
     """The same bench, its readings cut into slices for an onlooker.
 
     A reading is made of slices of ``slice_s`` seconds; ``inf``: of one. ``between`` is called
-    before each slice and may raise to stop; ``onlooker`` gets the rows after each. An onlooker
-    that fails is reported and dropped: observation does not stop a bench.
+    before each slice and may raise to stop. After each, ``guard`` gets the rows first: what it
+    raises stops the reading. Then ``onlooker`` gets them. One that fails is reported and dropped:
+    observation does not stop a bench, and no guard depends on it.
 
     What was read before something raised within a reading is given by the next one. A real bench's
     slice lasts until some sensor has given a row, so that a reading may end so much later. A
@@ -30,10 +32,12 @@ class WatchedBench(OuterBench):
         onlooker: Onlooker,
         slice_s: float,
         between: Callable[[], None] | None = None,
+        guard: Onlooker | None = None,
     ) -> None:
         super().__init__(bench)
-        self._slice, self._between = slice_s, between
-        self._onlooker: Onlooker | None = onlooker
+        self._slice, self._between, self._guard = slice_s, between, guard
+        self._onlookers = Onlookers[Onlooker](complain_of)
+        self._onlookers.add("the view of the bench", onlooker)
         self._unclaimed: list[Recording] = []
 
     def read(self, duration: float) -> Recording:
@@ -52,10 +56,6 @@ class WatchedBench(OuterBench):
             self._between()
         rows = self._bench.read(duration)
         self._unclaimed.append(rows)
-        if self._onlooker is None:
-            return
-        try:
-            self._onlooker(rows)
-        except Exception as error:
-            self._onlooker = None
-            complain(f"the view of the bench has failed, the bench goes on: {error!r}")
+        if self._guard is not None:
+            self._guard(rows)
+        self._onlookers.hand_on(lambda onlooker: onlooker(rows))

@@ -2,18 +2,21 @@
 
 import math
 import time
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
+from functools import partial
 
 import numpy as np
 from rich.console import Console
 from rich.live import Live
 
+from equipoise.app.bench.lost_onlookers import complain_of
 from equipoise.app.console.terminal import stdout
 from equipoise.app.live.latest_rows import Newest, after, masses_of, tilt_of, time_of
 from equipoise.app.live.observed_bench import Onlooker
 from equipoise.app.live.pace import Pace
 from equipoise.app.live.status_block import TerminalView
+from equipoise.hardware.bench.onlookers import Onlookers
 from equipoise.hardware.bench.replayed_bench import RecordingEnded, ReplayedBench
 from equipoise.io.formats.clock_units import nanoseconds
 from equipoise.model.recording import Recording
@@ -33,18 +36,31 @@ def begun(recording: Recording, speed: float) -> tuple[Pace, int]:
 
 
 def replayed(
-    testbed: Testbed, recording: Recording, pace: Pace, onlookers: Sequence[Onlooker]
+    testbed: Testbed, recording: Recording, pace: Pace, onlookers: Mapping[str, Onlooker]
 ) -> None:
-    """Show a recording from its beginning to its end at a pace."""
+    """Show a recording from its beginning to its end at a pace, or until nobody looks on."""
+    shown = Onlookers[Onlooker](_lost)
+    for name, onlooker in onlookers.items():
+        shown.add(name, onlooker)
     bench = ReplayedBench(testbed, recording, lambda passed: time.sleep(pace.wait(passed)))
     step = FRAME * (pace.speed or LINE / FRAME)
-    while True:
+    while len(shown):
         try:
             rows = bench.read(step)
         except RecordingEnded:
             return
-        for onlooker in onlookers:
-            onlooker(rows)
+        shown.hand_on(partial(_show, rows))
+
+
+def _show(rows: Recording, onlooker: Onlooker) -> None:
+    onlooker(rows)
+
+
+def _lost(name: str, error: Exception) -> None:
+    """Go on without an onlooker; where nobody reads what is printed, there is nothing to do."""
+    if isinstance(error, BrokenPipeError):
+        raise error
+    complain_of(name, error)
 
 
 @contextmanager

@@ -5,20 +5,21 @@ on what was received. It does not wait and has no clock. The commander can be lo
 then ``halt`` is called for it.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from equipoise.hardware.bench.interlocks import LAST, Observed, silence, tripped
+from equipoise.hardware.bench.onlookers import Onlookers, why_lost
 from equipoise.hardware.links.device_links import Links
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.model.arrays import Floats
 from equipoise.model.bench_requests import checked_targets
-from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import Hardware
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
@@ -27,6 +28,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.units import MM
 
 REMEMBERED = 0.2  # s, chosen: between the two answers from which a mass's speed is computed
+RECORD = "the record"  # without which nothing may move, where one was asked for
 
 
 class Listener(Protocol):
@@ -55,6 +57,7 @@ class BenchState:
     answered: bool = False  # every board has said how it is
     ready: bool = False  # every board stands and knows where
     fresh: bool = False  # every sensor gives rows
+    lost: tuple[str, ...] = ()  # sentences on views that failed; the bench goes on without them
 
 
 class Keeper:
@@ -63,7 +66,8 @@ class Keeper:
     def __init__(self, testbed: Testbed, hardware: Hardware, links: Links) -> None:
         self.testbed, self.links = testbed, links
         self._limits = hardware.limits
-        self._listeners: list[Listener] = []
+        self._listeners = Onlookers[Listener](self._left)
+        self._lost: tuple[str, ...] = ()
         self._attitudes: list[tuple[float, Floats]] = []
         self._rates: list[tuple[float, Floats]] = []
         self._before: dict[str, tuple[float, float]] = {}
@@ -79,12 +83,12 @@ class Keeper:
         links, silent = self.links, silence(self._observed(self.t), self._limits)
         trouble = links.unreachable or silent or links.unsure
         return BenchState(
-            self.trip, self._stops, trouble, links.answered, links.ready, silent is None
+            self.trip, self._stops, trouble, links.answered, links.ready, silent is None, self._lost
         )
 
-    def listen(self, listener: Listener) -> None:
-        """Hand all that happens from now on to a listener."""
-        self._listeners.append(listener)
+    def listen(self, listener: Listener, name: str = RECORD) -> None:
+        """Hand all that happens from now on to a listener; a lost record stops the bench."""
+        self._listeners.add(name, listener)
 
     def turn(self, t: float) -> None:
         """Poll every device and evaluate every interlock once."""
@@ -138,12 +142,12 @@ class Keeper:
         if why is not None:
             self._stop(why)
             return
-        self.note("command", "halt", {})
         self.links.halt(self.t)
+        self.note("command", "halt", {})
 
     def note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
         """Hand on what happened now, here or at whoever commands."""
-        self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
+        self._listeners.hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
 
     def close(self) -> None:
         """Stop every mass, note how well each device answered, and close every port."""
@@ -195,6 +199,7 @@ class Keeper:
 
     def _stop(self, trip: Reason) -> None:
         self.links.halt(self.t)
+        self.links.send(self.t)  # now: to note it may take the disk long
         self.trip, self._stops = trip, self._stops + 1
         self._warn(trip)
 
@@ -206,16 +211,14 @@ class Keeper:
         """Hand on what was received."""
         fresh = self._received.fresh()
         if fresh is not None:
-            self._hand_on(lambda listener: listener.rows(fresh))
-        self._hand_on(lambda listener: listener.turn(t))
+            self._listeners.hand_on(lambda listener: listener.rows(fresh))
+        self._listeners.hand_on(lambda listener: listener.turn(t))
 
-    def _hand_on(self, report: Callable[[Listener], None]) -> None:
-        """Report to every listener; one that fails stops the bench, and only once."""
-        for listener in list(self._listeners):
-            if listener not in self._listeners:  # it failed when the stop for another was noted
-                continue
-            try:
-                report(listener)
-            except EquipoiseError as error:
-                self._listeners.remove(listener)
-                self._stop(Reason(Interlock.RECORD_LOST, (str(error),)))
+    def _left(self, name: str, error: Exception) -> None:
+        """Stop the bench for a record that is lost; go on without a view, and say so."""
+        sentence = why_lost(name, error)
+        if name == RECORD:
+            self._stop(Reason(Interlock.RECORD_LOST, (sentence,)))
+        else:
+            self._lost += (sentence,)
+            self.note("note", sentence, {})

@@ -116,6 +116,11 @@ class RealBench:
         """Put what happened into the record and the live view."""
         self._keeper.note(kind, sentence, data)
 
+    @property
+    def lost(self) -> tuple[str, ...]:
+        """Return a sentence on each view that failed; the bench went on without it."""
+        return self._keeper.state.lost
+
     def health(self) -> list[Health]:
         """Return how well each device answers; nothing where the keeper has ended."""
         try:

@@ -21,9 +21,9 @@ class TappedPort:
         return found
 
     def send(self, data: bytes) -> None:
-        """Send all of it."""
-        self._tap(True, data)
+        """Send all of it; to tell of it comes after, since it may be a halt."""
         self._port.send(data)
+        self._tap(True, data)
 
     def close(self) -> None:
         """Close it."""

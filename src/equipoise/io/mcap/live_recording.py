@@ -36,10 +36,12 @@ DRIVER_KEY = "driver "  # in front of a driver's name
 class RecordingStopped(EquipoiseError):
     """The file cannot take more; what was written before is whole and can be read."""
 
-    def __init__(self, path: str, why: str) -> None:
+    def __init__(self, path: str, why: str, kept: float | None = None) -> None:
+        """Say up to which bench time (s) rows are in the file; None: none are."""
+        until = "no row is kept" if kept is None else f"what had come by {kept:.2f} s is kept"
         super().__init__(
-            f"{path}: recording stopped ({why}); what was written before is kept; make room on "
-            "the disk and begin a new recording"
+            f"{path}: recording stopped ({why}); {until}; make room on the disk and begin a new "
+            "recording"
         )
 
 
@@ -61,6 +63,7 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
         self._path = str(path)
         self._file = DurableFile(path)
         self._flushed: float | None = None
+        self._kept: float | None = None  # s, up to which the system has the rows
         try:
             self._writer, self._topics = self._guarded(lambda: self._begun(opening))
         except EquipoiseError:
@@ -118,6 +121,7 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
     def _flush(self, t: float) -> None:
         self._flushed = t
         self._guarded(self._writer.flush)
+        self._kept = t
         self._file.flush()
 
     def _guarded(self, work: Any) -> Any:
@@ -131,5 +135,5 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
                     raise
         if self._file.failure is not None:
             why = self._file.failure.strerror or str(self._file.failure)
-            raise RecordingStopped(self._path, why) from self._file.failure
+            raise RecordingStopped(self._path, why, self._kept) from self._file.failure
         return done

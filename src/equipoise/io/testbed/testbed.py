@@ -12,7 +12,7 @@ from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mas
 from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
 from equipoise.io.testbed.vector_sensors import Accelerometer, Magnetometer, Sun
 from equipoise.io.testbed.weights import Weight, WeightGrid, check_weights
-from equipoise.io.toml.key_types import ITSELF, Holds, NotNegative, Positive, Table
+from equipoise.io.toml.key_types import ITSELF, Holds, NotNegative, Positive, Table, Visible
 from equipoise.io.toml.table_records import RecordTable, check_names, record_of
 from equipoise.io.toml.units import key_factor
 from equipoise.model import testbed as model
@@ -98,7 +98,7 @@ class TestbedFile(RecordTable):
 
     __test__ = False  # not a test case, whatever its name suggests
 
-    name: Annotated[str, Field(min_length=1)]
+    name: Visible
     platform: Annotated[Platform, Holds(ITSELF)]
     sliding_mass: Annotated[list[SlidingMass], Holds("masses")] = Field([])
     reaction_wheel: Annotated[list[devices.ReactionWheel], Holds("wheels")] = Field([])

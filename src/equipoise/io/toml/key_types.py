@@ -1,11 +1,13 @@
 """Kinds of keys and tables that our TOML files are made of; directions as people write them."""
 
 import math
+import unicodedata
 from dataclasses import dataclass
 from typing import Annotated, Any, cast, get_args
 
 import numpy as np
 from pydantic import (
+    AfterValidator,
     BaseModel,
     BeforeValidator,
     ConfigDict,
@@ -42,7 +44,23 @@ def _tensor(value: Any) -> Any:
     return [[row if i == j else 0.0 for j in range(3)] for i, row in enumerate(rows)]
 
 
+def _visible(text: str) -> str:
+    """Return a text as it is, if each of its characters is seen, and none turns the others."""
+    if any(unicodedata.category(character) in INVISIBLE for character in text):
+        raise PydanticCustomError("unseen", VISIBLE)
+    return text
+
+
 ITSELF = "."
+INVISIBLE = (
+    "Cc",
+    "Cf",
+    "Cs",
+    "Co",
+    "Zl",
+    "Zp",
+)  # format, line ends and the like
+VISIBLE = "text in one line, without control, direction or other invisible characters"
 TENSOR = "three moments [xx, yy, zz], or three rows [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]"
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
@@ -53,6 +71,7 @@ Direction = Annotated[list[float], Field(min_length=3, max_length=3), UnitVector
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 SdTriple = Annotated[list[Positive], Field(min_length=3, max_length=3)]
+Visible = Annotated[str, Field(min_length=1), AfterValidator(_visible)]
 # A mass's or device's name becomes part of a column's name, so it is kept to what any
 # table program takes.
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]

@@ -41,18 +41,18 @@ def line_document(
 
 
 def state_document(
-    station: Station, posterior: LiveEstimate, goal: Goal | None, **state: object
+    station: Station, estimate: Mapping[str, Any] | None, goal: Goal | None, **state: object
 ) -> Document:
     """Return the state of the runner; ``state`` stands in the document as it is."""
     wanted = None if goal is None else {
         "target": goal.target.tolist(), "tolerance": goal.tolerance.tolist()}  # fmt: skip
     return {
         "kind": "state", "t": station.bench.time, "goal": wanted, "span": station.span,
-        "seed": station.seed, "estimate": _estimated(posterior), **state,
+        "seed": station.seed, "estimate": estimate, **state,
     }  # fmt: skip
 
 
-def _estimated(posterior: LiveEstimate) -> Mapping[str, Any] | None:
+def estimated(posterior: LiveEstimate) -> Mapping[str, Any] | None:
     """Return the centre of mass as the masses stand (m), and its covariance by rows (m^2)."""
     state, covariance, known = posterior.state, posterior.covariance, posterior.tail
     if state is None or covariance is None or known is None:

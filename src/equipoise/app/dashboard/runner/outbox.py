@@ -32,10 +32,13 @@ class Post:
         self._send("step", document)
 
     def rows(self, t: float, parts: list[Part]) -> None:
-        """Take rows up to bench time t (s)."""
+        """Take rows up to bench time t (s); ValueError where a series changes its columns."""
         self._t = t
         for name, values in parts:
-            self._waiting.setdefault(name, []).append(values)
+            waiting = self._waiting.setdefault(name, [])
+            if waiting and waiting[0].shape[1:] != values.shape[1:]:
+                raise ValueError(f"series {name}: {waiting[0].shape[1:]}, then {values.shape[1:]}")
+            waiting.append(values)
 
     def state(self, document: Mapping[str, Any]) -> None:
         """Send the state of the runner, if it is new."""

@@ -5,10 +5,12 @@ from time import time_ns
 
 from equipoise.app.dashboard.protocol.data_folder import new_recording
 from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.io.files.atomic_file import WRITABLE
 from equipoise.io.formats.clock_units import nanoseconds
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.bench import Bench
+from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 
 
@@ -23,8 +25,7 @@ class Recorder:
     def begin(self, bench: Bench) -> None:
         """Begin a new file; EquipoiseError where that cannot be."""
         if self._file is None:
-            path = new_recording(self._folder, bench.testbed.name)
-            bed = bench.testbed
+            path, bed = self._path(bench), bench.testbed
             opening = Opening(_begun_ns(bench), text_of_testbed(bed), bed)
             self._file = LiveRecording(path, opening)
             self.name = path.relative_to(self._folder).as_posix()
@@ -45,6 +46,12 @@ class Recorder:
         file, self._file, self.name = self._file, None, None
         if file is not None:
             file.close()
+
+    def _path(self, bench: Bench) -> Path:
+        try:
+            return new_recording(self._folder, bench.testbed.name)
+        except OSError as error:
+            raise InputError(str(self._folder), error.strerror or str(error), WRITABLE) from error
 
 
 def _begun_ns(bench: Bench) -> int:

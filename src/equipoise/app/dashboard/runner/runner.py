@@ -13,9 +13,8 @@ from equipoise.app.console.compile_notice import compiler_notices
 from equipoise.app.console.terminal import COMPILING
 from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
 from equipoise.app.dashboard.runner.benches import Station, let_go
-from equipoise.app.dashboard.runner.chart_rows import parts_of
+from equipoise.app.dashboard.runner.display import SLICE, Display
 from equipoise.app.dashboard.runner.documents import about, line_document, state_document
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.recorder import Recorder
 from equipoise.app.live.observed_bench import WatchedBench
@@ -32,8 +31,6 @@ from equipoise.model.recording import Recording, joined
 from equipoise.model.step import Step
 from equipoise.model.verdict import VerdictOutcome
 
-SLICE = 0.1  # s of the bench, chosen: as often as a person can follow numbers
-REMEMBERED = 1200.0  # s, chosen: what an identification takes in at most
 BY_HAND = f"stopped by hand: {HALTED}"
 
 
@@ -60,25 +57,28 @@ class Runner:
     # --- What is shown -----------------------------------------------------------------------
 
     def show(self, station: Station) -> None:
-        """Show a station from its beginning; simulated platforms and recordings begin held."""
+        """Show a station from its beginning; simulated platforms and recordings begin held.
+
+        What is recorded of the one before ends with it.
+        """
+        ended = self.end_recording()
         self.station = station
-        self._clock += 1
-        self._steps, self._observed = 0, list[Recording]()
-        self._posterior = LiveEstimate(station.testbed)
-        self._watched = WatchedBench(station.bench, self._rows, SLICE, self._between)
+        self._clock, self._steps = self._clock + 1, 0
+        self._display = Display(station.testbed, self.post, self.recorder, self._report)
+        self._watched = WatchedBench(station.bench, self._rows, SLICE, self._between, self._guard)
         self.post.about(about(station, self._clock, self.session))
         self.goal, self.trip, self.kept = None, None, None
         self.phase = "paused" if station.paced else "idle"
         if station.before is not None:
-            self._reported(station.before)
-        self.report_state()
+            self._display.shown_only(station.bench.time, station.before)
+        self._report(ended) if ended else self.report_state()
 
     def report_state(self) -> None:
         """Send the state."""
         self.post.state(state_document(
-            self.station, self._posterior, self.goal, phase=self.phase, speed=self.pace.speed,
-            recording=self.recorder.name, trip=self.trip, note=self.note, kept=self.kept,
-            working=self.working,
+            self.station, self._display.estimate, self.goal, phase=self.phase,
+            speed=self.pace.speed, recording=self.recorder.name, trip=self.trip, note=self.note,
+            kept=self.kept, working=self.working,
         ))  # fmt: skip
 
     def say(self, sentence: str) -> None:
@@ -98,7 +98,21 @@ class Runner:
     def _line(self, of: str, t: float, sentence: str, outcome: str | None = None) -> None:
         self.post.step(line_document(self._steps, of, t, sentence, outcome))
         self._steps += 1
-        self.recorder.event(t, of, sentence)
+        self._display.event(t, of, sentence)
+
+    def _report(self, sentence: str) -> None:
+        """Say what has ended, where it stays to be read and in the record."""
+        self._line("note", self.station.bench.time, sentence)
+        self.say(sentence)
+
+    def end_recording(self) -> str:
+        """End the recording; return a sentence on it, and none where nothing is recorded."""
+        name = self.recorder.name
+        try:
+            self.recorder.end()
+        except EquipoiseError as error:
+            return str(error)
+        return "" if name is None else f"{name}: the recording ended: something else is shown now."
 
     # --- Time passes -------------------------------------------------------------------------
 
@@ -134,34 +148,23 @@ class Runner:
             self.report_state()
 
     def _rows(self, rows: Recording) -> None:
-        """Show rows and keep them; a simulated bench and a replay wait for their time."""
-        self._reported(rows)
-        self._remember(rows)
+        self._display.rows(self.station.bench.time, rows)
+
+    def _guard(self, rows: Recording) -> None:
+        """Let a simulated bench and a replay wait for their time, and catch what falls.
+
+        Comes before all that is shown, and depends on nothing of it.
+        """
         if self.station.paced:
-            self._catch(rows)
             self._due = time.monotonic() + self.pace.wait(SLICE)
-
-    def _reported(self, rows: Recording) -> None:
-        t, bed = self.station.bench.time, self.station.testbed
-        self.recorder.rows(t, rows)
-        try:
-            self._posterior, track = grown(self._posterior, rows)
-        except Exception as error:  # whatever it is: a view stops no bench, and begins anew
-            self._posterior, track = LiveEstimate(bed), None
-            self.note = f"The live estimate begins anew: {error}"
-        self.post.rows(t, parts_of(rows, bed, self._posterior, track))
-
-    def _remember(self, rows: Recording) -> None:
-        self._observed.append(rows)
-        most = int(REMEMBERED / SLICE)
-        del self._observed[:-most]
+            self._catch(rows)
 
     def _catch(self, rows: Recording) -> None:
         """Hold a simulated platform that falls while nothing is done with it."""
         idle, bed = self.phase == "idle", self.station.testbed
         if not idle or self.station.kind != "simulated" or rows.attitude is None:
             return
-        if tilt(rows.attitude.values[-1], bed.up) > bed.tilt_at_stop:
+        if not tilt(rows.attitude.values[-1], bed.up) <= bed.tilt_at_stop:  # nor what is no number
             self.phase = "paused"
             self.note = "The platform was caught: it tilted to its limit."
 
@@ -194,10 +197,10 @@ class Runner:
 
     def identify(self, method: str) -> None:
         """Identify from the recent rows, as a background job; a note where there are none."""
-        if not self._observed:
+        if not self._display.observed:
             self.say("Nothing has been recorded yet.")
             return
-        task = Fit(joined(self._observed), self.station.testbed, method)
+        task = Fit(joined(self._display.observed), self.station.testbed, method)
         self._begin(Job(task), f"identifying ({method})")
 
     def stop_work(self) -> None:
@@ -209,7 +212,7 @@ class Runner:
     def close(self) -> None:
         """End recordings and background jobs."""
         self.stop_work()
-        self.recorder.end()
+        self.end_recording()
 
     def _replayed(self, bench: Bench) -> Bench:
         """Return the bench as a procedure gets it: shown, and stopped by requests."""

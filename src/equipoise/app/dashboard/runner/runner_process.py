@@ -7,7 +7,7 @@ Signals to stop reach the server alone.
 """
 
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
@@ -45,7 +45,8 @@ def run_runner(pipe: Pipe, opening: Opening) -> None:
             pipe.send(("ready", None))
             _serve(pipe, station, opening)
     except EquipoiseError as error:
-        pipe.send(("failed", str(error)))
+        with suppress(OSError):  # the server is gone, too
+            pipe.send(("failed", str(error)))
     except (EOFError, OSError):
         return
 
