@@ -106,7 +106,7 @@ def test_the_address_that_was_printed_opens_the_page(running):
         received = Received(page)
         page.goto(running.url)
         expect(page.locator("#eq-link")).to_contain_text("connected", timeout=LATER)
-        page.wait_for_function("window.equipoise?.state().link === 'open'", timeout=LATER)
+        page.wait_for_function("() => window.equipoise?.state().link === 'open'", timeout=LATER)
         start = page.get_by_role("button", name="Start balancing", exact=True)
         expect(start).to_be_disabled()
         page.get_by_label("Token").fill(running.token)
