@@ -2,14 +2,13 @@
 
 from typing import Any
 
-from nicegui import ui
+from nicegui import Client, ui
 from nicegui.events import GenericEventArguments
 
 from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.server.controls import Controls
 from equipoise.app.dashboard.server.fields import choice, switch
 from equipoise.app.dashboard.server.request_queue import Counter
-from equipoise.app.dashboard.server.shell import forget_unless_connected
 
 HEAD = (
     '<link rel="stylesheet" href="/static/vendor/uPlot.min.css">'
@@ -19,14 +18,24 @@ HEAD = (
 )
 SPANS = {20: "20 s", 60: "1 min", 300: "5 min", 1200: "20 min"}
 UNITS = {"bench": "um, mm, deg", "si": "SI"}
+UNCONNECTED = 20.0  # s, chosen: a page loads 2 MB before it connects
 EVERY = 0.3  # s, chosen: how often the controls follow how things stand
 
 
-def build(counter: Counter) -> None:
-    """Build a page that has just been opened."""
+async def open_page(counter: Counter) -> None:
+    """Open a page; it is built once its socket is there.
+
+    What only fetches the page costs little and is soon forgotten (NiceGUI does that where nobody
+    connects in time).
+    """
     page = ui.context.client
-    forget_unless_connected(page)
     ui.add_head_html(HEAD.format(nonce=page.request.scope["nonce"]))
+    await page.connected(timeout=UNCONNECTED)
+    if not page.is_deleted:
+        _build(counter, page)
+
+
+def _build(counter: Counter, page: Client) -> None:
     dark = ui.dark_mode(value=False)
     with ui.element("header").classes("eq-head"):
         ui.label(counter.testbed.name).classes("eq-title")

@@ -5,6 +5,7 @@ import socket
 import threading
 from collections.abc import AsyncGenerator
 from contextlib import asynccontextmanager, suppress
+from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
@@ -20,7 +21,7 @@ from equipoise.app.dashboard.runner.request_handler import LEAVE
 from equipoise.app.dashboard.runner.runner_process import Opening, run_runner
 from equipoise.app.dashboard.server.broadcast import GONE, Watch
 from equipoise.app.dashboard.server.gate import LARGEST, Doors, Gate
-from equipoise.app.dashboard.server.layout import build
+from equipoise.app.dashboard.server.layout import open_page
 from equipoise.app.dashboard.server.limits import BACKLOG, Waiting, limited
 from equipoise.app.dashboard.server.policies import of_file
 from equipoise.app.dashboard.server.request_queue import Counter
@@ -89,7 +90,7 @@ def application(counter: Counter, pipe: Pipe, doors: Doors) -> Gate:
 
     app = FastAPI(lifespan=living, docs_url=None, redoc_url=None, openapi_url=None)
     _routes(app, counter)
-    ui.page("/", title=f"Equipoise: {counter.testbed.name}")(lambda: build(counter))
+    ui.page("/", title=f"Equipoise: {counter.testbed.name}")(partial(open_page, counter))
     ui.run_with(app, binding_refresh_interval=None, tailwind=False, show_welcome_message=False)
     core.sio.eio.max_http_buffer_size = LARGEST
     prepare()

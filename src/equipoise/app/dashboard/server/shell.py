@@ -7,18 +7,16 @@ not there   one sentence, in place of a whole page of NiceGUI's for each
 messages    one that names no element of its own page is dropped
 """
 
-import asyncio
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
 
 from jinja2 import Environment, FunctionLoader
-from nicegui import Client, app, core
+from nicegui import app, core
 from nicegui import client as nicegui_client
 from starlette.requests import Request
 from starlette.responses import JSONResponse
 
-UNCONNECTED = 20.0  # s, chosen: a page loads 2 MB before it connects
 MARK = ' nonce="{{ request.scope.nonce }}"'
 MARKED: Mapping[str, str] = {
     "<script": f"<script{MARK}",
@@ -37,16 +35,6 @@ def prepare() -> None:
     core.sio.eio.transports = ["websocket"]
     served: Any = core.sio
     served.handlers["/"]["event"] = _own(served.handlers["/"]["event"])
-
-
-def forget_unless_connected(client: Client) -> None:
-    """Forget a page if nobody connects to it."""
-
-    def forget() -> None:
-        if not client.has_socket_connection and client.id in Client.instances:
-            client.delete()
-
-    asyncio.get_running_loop().call_later(UNCONNECTED, forget)
 
 
 def _template_of(environment: Environment) -> Any:
