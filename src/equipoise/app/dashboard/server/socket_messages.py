@@ -1,10 +1,10 @@
 """What the shell's socket may bring: the messages that a page sends, and no others.
 
-    2, 3           ping and pong
-    40, 41         the socket begins, and ends
-    42["ack", ..]  so many messages of the server have come
+    3                pong
+    40, 41           the socket begins, and ends
+    42["ack", ..]    so many messages of the server have come
     42["event", ..]  a person has done something with an element; its values are checked by
-                   the element (``fields``) and by the schema of the requests
+                     the element (``fields``) and by the schema of the requests
 
 What is none of these is dropped, and so is what comes oftener than a person can do. The shell
 itself would raise an error for it, or write what the page wants written into the log.
@@ -21,7 +21,7 @@ from typing_extensions import TypedDict
 
 from equipoise.app.dashboard.server.limits import Bucket
 
-PLAIN = re.compile(r"[23]|4[01]\Z|40\{\}\Z")
+PLAIN = re.compile(r"3|4[01]|40\{\}")
 PREFIX = "42"
 RATE, BURST = 50, 300  # messages of a socket, chosen: a person types ten keys a second
 ARGUMENT = 4096  # characters, chosen: many times what an element sends
@@ -77,7 +77,7 @@ def opens(scope: Scope) -> bool:
 def is_ours(text: str) -> bool:
     """Say whether a message is one that a page sends."""
     if not text.startswith(PREFIX):
-        return PLAIN.match(text) is not None
+        return PLAIN.fullmatch(text) is not None
     try:
         name, content = NAMED.validate_json(text.removeprefix(PREFIX))
         message = EVENTS[name].validate_python(content, strict=True)
