@@ -3,6 +3,8 @@
 import json
 import re
 import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 from uuid import uuid4
@@ -72,8 +74,9 @@ class ByHand:
         self.until(lambda: any("commands now" in note for note in self.notes))
 
 
-def opened(url: str, port: int) -> ByHand:
-    """Open a page on this computer and wait until it is built."""
+@contextmanager
+def opened(url: str, port: int) -> Iterator[ByHand]:
+    """Lend a page on this computer that is open and built."""
     with urllib.request.urlopen(url, timeout=PATIENCE) as answer:
         html = answer.read().decode()
     client = re.search(r"['\"]client_id['\"]: ['\"]([\w-]+)['\"]", html)[1]
@@ -82,9 +85,9 @@ def opened(url: str, port: int) -> ByHand:
         f"&document_id={uuid4()}&tab_id={uuid4()}&old_tab_id="
     )
     address = f"ws://127.0.0.1:{port}/_nicegui_ws/socket.io/?{query}"
-    socket = connect(address, origin=f"http://127.0.0.1:{port}", open_timeout=PATIENCE)
-    socket.send("40")
-    page = ByHand(socket, client)
-    page.until(lambda: any(e.get("tag") == "q-input" for e in page.elements.values()))
-    page.read()
-    return page
+    with connect(address, origin=f"http://127.0.0.1:{port}", open_timeout=PATIENCE) as socket:
+        socket.send("40")
+        page = ByHand(socket, client)
+        page.until(lambda: any(e.get("tag") == "q-input" for e in page.elements.values()))
+        page.read()
+        yield page

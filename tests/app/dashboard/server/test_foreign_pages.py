@@ -6,6 +6,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import pytest
 from playwright.sync_api import expect
 
+from tests.support import thorough
 from tests.support.dashboard_program import CHROMIUM, browser, dashboard
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
@@ -70,7 +71,7 @@ def site():
         server.shutdown()
 
 
-@pytest.fixture(scope="module", params=["loopback", "exposed"])
+@pytest.fixture(scope="module", params=thorough.some(["exposed", "loopback"], 1))
 def running(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param)
     (folder / "runs" / "theirs").mkdir(parents=True)
@@ -99,6 +100,8 @@ def context(chromium, running):
     yield made
     expect(page.locator("#eq-link")).to_contain_text("connected")
     assert page.evaluate("window.equipoise.state().steps") == 0
+    page.get_by_role("button", name="Release", exact=True).click()  # it still commands
+    expect(page.get_by_role("button", name="Command", exact=True)).to_be_visible()
     made.close()
 
 
@@ -106,7 +109,7 @@ def ours(running):
     return f"http://127.0.0.1:{running.port}"
 
 
-@pytest.mark.parametrize("host", ["127.0.0.1", "localhost", FOREIGN])
+@pytest.mark.parametrize("host", thorough.some(["127.0.0.1", "localhost", FOREIGN], 2))
 def test_it_neither_reads_nor_commands(context, running, site, host):
     """From another site, and from another port of this computer, which a cookie does not tell."""
     theirs = context.new_page()
@@ -117,7 +120,7 @@ def test_it_neither_reads_nor_commands(context, running, site, host):
     assert theirs.evaluate(FRAMED, ours(running)) == "closed"
 
 
-@pytest.mark.parametrize("host", ["127.0.0.1", FOREIGN])
+@pytest.mark.parametrize("host", thorough.some(["127.0.0.1", FOREIGN], 1))
 def test_a_link_on_another_site_does_not_open_it(context, running, site, host):
     theirs = context.new_page()
     theirs.goto(f"http://{host}:{site}/")
