@@ -22,6 +22,7 @@ class ByHand:
     client: str
     elements: dict[str, dict[str, Any]] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    switch: str = ""  # the element that takes command and releases it
 
     def read(self, seconds: float = 0.5) -> None:
         """Read what has come until nothing comes for so long."""
@@ -69,9 +70,15 @@ class ByHand:
 
     def commands(self, token: str) -> None:
         """Take command."""
+        self.switch = self.named("Command")
         self.does(self.named("Token"), "update:modelValue", token)
         self.does(self.named("Token"), "keydown")
         self.until(lambda: any("commands now" in note for note in self.notes))
+
+    def releases(self) -> None:
+        """Release the command to others."""
+        self.does(self.switch, "click")
+        self.read()
 
 
 @contextmanager
