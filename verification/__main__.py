@@ -113,7 +113,7 @@ CHECKS = {
     "latency": Check(latency.measure, 3),
     "long_emulation": Check(long_emulation.measure, 8),
     "dashboard_hour": Check(dashboard_hour.measure, 60),
-    "floods": Check(floods.measure, 3),
+    "floods": Check(floods.measure, 1),
     "real_methods": Check(real_methods.measure, 1),
 }
 
