@@ -144,7 +144,7 @@ async def _shown(page: WebSocket, watch: Watch) -> None:
 def serve(app: Gate, at: socket.socket) -> None:
     """Serve until Ctrl-C and its like; the server knows of two of these signals by itself."""
     config = uvicorn.Config(
-        app, log_level="warning", ws_max_size=LARGEST, timeout_graceful_shutdown=1,
+        app, log_level="error", ws_max_size=LARGEST, timeout_graceful_shutdown=1,
         access_log=False, http=limited(Waiting()), backlog=BACKLOG,  # type: ignore[arg-type]
     )  # fmt: skip
     server = uvicorn.Server(config)

@@ -1,10 +1,13 @@
 """NiceGUI as this server needs it: under a strict policy, and with answers that cost little.
 
-template    each script and style of the page gets the number of its answer (see ``policies``),
-written into the template itself: no text that is filled in can get it
-pages       one that nobody has connected to is forgotten after ``UNCONNECTED``
-not there   one sentence, in place of a whole page of NiceGUI's for each
-messages    one that names no element of its own page is dropped
+    template    each script and style of the page gets the number of its answer (see ``policies``),
+                written into the template itself: no text that is filled in can get it
+    not there   one sentence, in place of a whole page of NiceGUI's for each
+    messages    one that names no element of its own page is dropped
+
+NiceGUI evaluates texts as scripts in three places: ``run_javascript``, handlers in JavaScript, and
+properties that begin with a colon; Vue does where a component has a template. The page has none of
+these (``fields``), so that its policy needs no ``unsafe-eval``; a test in a browser would find one.
 """
 
 from collections.abc import Mapping
