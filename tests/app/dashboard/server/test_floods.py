@@ -52,6 +52,14 @@ def until(there):
     raise AssertionError("not in time")
 
 
+def test_what_only_fetches_the_page_gets_it_empty(running):
+    """Its elements are made once its socket is there: until then it costs little."""
+    with urlopen(running.url, timeout=PATIENCE) as answer:
+        html = answer.read().decode()
+    assert "Start balancing" not in html
+    assert "page.js" in html
+
+
 def test_silent_connections_give_way_and_are_closed(running, live):
     before = open_files(running)
     lines = silent(running, 600)
@@ -71,14 +79,6 @@ def test_requests_for_pages_are_limited_and_leave_nothing(running, live):
     assert found[200] < 60
     assert resident(running) < GROWN * before
     until(lambda: requested(running, 1) == {200: 1})
-
-
-def test_what_only_fetches_the_page_gets_it_empty(running):
-    """Its elements are made once its socket is there: until then it costs little."""
-    with urlopen(running.url, timeout=PATIENCE) as answer:
-        html = answer.read().decode()
-    assert "Start balancing" not in html
-    assert "page.js" in html
 
 
 def test_a_kept_connection_is_closed_in_time(running):
