@@ -31,6 +31,7 @@ from verification import (
     efficiency,
     emulated_balancing,
     faulty_benches,
+    floods,
     independent_truth,
     interrupted_commands,
     killed_recordings,
@@ -114,6 +115,7 @@ CHECKS = {
     "latency": Check(latency.measure, 3),
     "long_emulation": Check(long_emulation.measure, 8),
     "dashboard_hour": Check(dashboard_hour.measure, 60),
+    "floods": Check(floods.measure, 1),
     "real_methods": Check(real_methods.measure, 1),
 }
 

@@ -68,7 +68,9 @@ class Watched:
     def __init__(self, chromium: Any, running: Dashboard) -> None:
         self.page = chromium.new_page(viewport={"width": 1280, "height": 720})
         self.page.goto(running.url)
-        self.page.wait_for_function("window.equipoise?.state().link === 'open'", timeout=120_000)
+        self.page.wait_for_function(
+            "() => window.equipoise?.state().link === 'open'", timeout=120_000
+        )
         self._tab = self.page.context.new_cdp_session(self.page)
         self._tab.send("HeapProfiler.enable")
         found = chromium.new_browser_cdp_session().send("SystemInfo.getProcessInfo")["processInfo"]

@@ -37,6 +37,7 @@ class Dashboard:
     url: str
     token: str
     port: int
+    folder: Path
 
     def kill(self):
         """End the server as a crash would."""
@@ -67,7 +68,7 @@ def started(folder: Path, *words: object, port: int | None = None) -> Dashboard:
         said = log.read_text()
         if "Ctrl-C" in said:
             url = re.search(r"dashboard is at (\S+)", said)[1]
-            return Dashboard(process, url, re.search(r"command: (\S+)", said)[1], port)
+            return Dashboard(process, url, re.search(r"command: (\S+)", said)[1], port, folder)
         time.sleep(0.1)
     process.kill()
     raise AssertionError(log.read_text())
@@ -86,12 +87,12 @@ def dashboard(folder: Path, *words: object, ended_with: int = signal.SIGINT) -> 
 
 
 @contextmanager
-def browser() -> Iterator[Any]:
-    """Lend a browser that asks nobody but us."""
+def browser(*others: str) -> Iterator[Any]:
+    """Lend a browser that asks nobody but us; ``others`` are arguments of its own."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as play:
-        opened = play.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        opened = play.chromium.launch(executable_path=CHROMIUM, args=[*ARGUMENTS, *others])
         yield opened
         opened.close()
 

@@ -53,7 +53,8 @@ def chosen(page, label, option):
 
 
 def wait_until(page, condition, most=LATER):
-    page.wait_for_function(condition, timeout=most)
+    """A function, which is evaluated once: the page's policy allows no evaluation of texts."""
+    page.wait_for_function(f"() => {condition}", timeout=most)
 
 
 def test_a_platform_is_balanced_and_another_stopped_from_the_page(chromium, tmp_path):

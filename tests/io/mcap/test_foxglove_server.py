@@ -2,15 +2,17 @@
 
 import base64
 import json
+import socket
 import struct
 import time
 from contextlib import suppress
 
 import numpy as np
 import pytest
+from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView
+from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView, drawn_address
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
@@ -104,6 +106,49 @@ def test_who_comes_late_is_shown_the_scene():
     update = decoded(base64.b64decode(scene["schema"]), "foxglove.SceneUpdate", shown[0][13:])
     names = {entity["id"] for entity in update["entities"]}
     assert names == {"platform", "masses", "centre of mass", "gravity"}
+
+
+FOREIGN = ("http://evil.example", "https://app.foxglove.dev.evil.example", "null",
+           "http://app.foxglove.dev", "http://localhost.evil.example",
+           "https://foxglove.dev")  # fmt: skip
+
+
+@pytest.mark.parametrize("origin", FOREIGN)
+def test_a_page_of_a_foreign_origin_does_not_observe(origin):
+    with (
+        LiveView(ZERO, port=0) as view,
+        pytest.raises(InvalidStatus) as refused,
+    ):
+        connect(view.address, subprotocols=[PROTOCOL], origin=origin)
+    assert refused.value.response.status_code == 403
+
+
+OWN = (None, "file://", "https://app.foxglove.dev", "http://localhost:8080", "http://127.0.0.1")
+
+
+@pytest.mark.parametrize("origin", OWN)
+def test_the_programs_that_show_it_do(origin):
+    with (
+        LiveView(ZERO, port=0) as view,
+        connect(view.address, subprotocols=[PROTOCOL], origin=origin) as client,
+    ):
+        assert json.loads(client.recv(PATIENCE))["op"] == "serverInfo"
+
+
+def test_another_name_for_this_computer_is_refused():
+    """A foreign page may have its own name lead to 127.0.0.1."""
+    with LiveView(ZERO, port=0) as view:
+        port = int(view.address.rsplit(":", 1)[1])
+        with (
+            socket.create_connection(("127.0.0.1", port)) as raw,
+            pytest.raises(InvalidStatus) as refused,
+        ):
+            connect(f"ws://evil.example:{port}", subprotocols=[PROTOCOL], sock=raw)
+    assert refused.value.response.status_code == 403
+
+
+def test_the_server_behind_the_gate_is_at_no_address_that_a_page_guesses():
+    assert len({drawn_address() for _ in range(20)}) > 1
 
 
 def test_it_listens_on_this_computer_alone():

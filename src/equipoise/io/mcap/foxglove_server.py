@@ -3,8 +3,21 @@
 Protocol: Foxglove WebSocket, public (subprotocol ``foxglove.sdk.v1``). Messages are those of the
 file (``log_messages``). It listens on this computer alone and takes no commands: an observer
 cannot move anything.
+
+Who may observe, by the ``Origin`` of a connection (``origin_gate``):
+
+    none                          programs: PlotJuggler, scripts. A page in a browser always has one
+    file://                       the desktop programs Foxglove and Lichtblick
+    https://app.foxglove.dev      Foxglove in a browser, and studio.foxglove.dev, which led there
+    http://localhost, 127.0.0.1   Lichtblick served from this computer, at any port
+
+Every other page is refused, and so is a ``Host`` that is not this computer. The server of the
+library knows no origins: it listens behind the gate, at a loopback address drawn for each session.
 """
 
+import re
+import secrets
+import socket
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -12,6 +25,7 @@ from typing import Any
 
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.log_messages import SCENE_TOPIC, Send, Topics
+from equipoise.io.mcap.origin_gate import Head, OriginGate
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -19,6 +33,10 @@ from equipoise.model.testbed import Testbed
 LOOPBACK = "127.0.0.1"
 PORT = 8765  # the protocol's customary port
 ADDRESS = f"ws://{LOOPBACK}:{PORT}"
+ORIGINS = re.compile(
+    r"file://|https://(app|studio)\.foxglove\.dev|http://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?"
+)
+HOSTS = re.compile(r"(localhost|127\.0\.0\.1)(:\d+)?")
 LAYOUT = Path(__file__).with_name("foxglove_layout.json")  # panels for these topics, to import
 
 
@@ -62,18 +80,23 @@ class LiveView(AbstractContextManager["LiveView"]):
             return lambda data, ns: channel.log(data, log_time=ns)
 
         self._topics = Topics(opened, zero_ns, where, testbed)
+        at = _listening(port, where)
+        self._port: int = at.getsockname()[1]
+        inner = drawn_address()
         try:
             self._server: Any = foxglove.start_server(
-                name="equipoise", host=LOOPBACK, port=port, context=context,
+                name="equipoise", host=inner, port=0, context=context,
                 server_listener=self._newcomers,
             )  # fmt: skip
         except (OSError, RuntimeError) as error:
+            at.close()
             raise InputError(where, str(error), "a port that is free") from error
+        self._gate = OriginGate(at, (inner, self._server.port), welcome)
 
     @property
     def address(self) -> str:
         """Where to connect to."""
-        return f"ws://{LOOPBACK}:{self._server.port}"
+        return f"ws://{LOOPBACK}:{self._port}"
 
     def rows(self, recording: Recording) -> None:
         """Send the rows of every channel to whoever is connected."""
@@ -95,8 +118,34 @@ class LiveView(AbstractContextManager["LiveView"]):
 
     def close(self) -> None:
         """End all connections."""
+        self._gate.close()
         self._server.stop()
 
     def __exit__(self, *_raised: object) -> None:
         """Close."""
         self.close()
+
+
+def welcome(head: Head) -> bool:
+    """Say whether a connection may observe, by the head of its request (see above)."""
+    hosts, origins = head.get("host", []), head.get("origin", [])
+    ours = len(hosts) == 1 and HOSTS.fullmatch(hosts[0]) is not None
+    return ours and all(ORIGINS.fullmatch(origin) for origin in origins)
+
+
+def drawn_address() -> str:
+    """Return a loopback address that no page guesses, where the system has more than one."""
+    drawn = ".".join(["127", *(str(1 + secrets.randbelow(254)) for _ in range(3))])
+    with socket.socket() as probe:
+        try:
+            probe.bind((drawn, 0))
+        except OSError:
+            return LOOPBACK
+    return drawn
+
+
+def _listening(port: int, where: str) -> socket.socket:
+    try:
+        return socket.create_server((LOOPBACK, port))
+    except OSError as error:
+        raise InputError(where, error.strerror or str(error), "a port that is free") from error

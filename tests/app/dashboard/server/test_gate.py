@@ -1,7 +1,5 @@
 """Who may speak with the dashboard: by host, origin, token, size; and who commands."""
 
-from urllib.parse import urlencode
-
 import pytest
 from starlette.applications import Starlette
 from starlette.responses import PlainTextResponse
@@ -11,7 +9,9 @@ from starlette.websockets import WebSocketDisconnect
 
 from equipoise.app.dashboard.protocol.data_folder import recordings, within
 from equipoise.app.dashboard.server.authorisation import Guard, new_token
-from equipoise.app.dashboard.server.gate import LARGEST, Doors, Gate
+from equipoise.app.dashboard.server.gate import COOKIE, LARGEST, SOCKETS, Doors, Gate
+from equipoise.app.dashboard.server.limits import Bucket
+from equipoise.app.dashboard.server.policies import of_file
 from equipoise.app.dashboard.server.session import bracketed, names
 from equipoise.model.errors import InputError
 
@@ -29,16 +29,21 @@ async def live(socket):
 
 
 def client(exposed=False, host=HERE):
-    routes = [Route("/", page, methods=["GET", "POST"]), WebSocketRoute("/live", live)]
+    routes = [Route("/", page), Route("/static/a", page), WebSocketRoute("/live", live)]
     doors = Doors(frozenset({HERE, "localhost:8080"}), exposed)
     gate = Gate(Starlette(routes=routes), doors, Guard(TOKEN))
     return TestClient(gate, base_url=f"http://{host}", raise_server_exceptions=False)
 
 
-def receives(client, headers=None, query=""):
-    with client.websocket_connect(f"ws://{client.base_url.netloc.decode()}/live{query}",
+def receives(client, headers=None):
+    with client.websocket_connect(f"ws://{client.base_url.netloc.decode()}/live",
                                   headers=headers or {}) as socket:  # fmt: skip
         return socket.receive_text()
+
+
+def with_token(token=TOKEN, origin=f"http://{HERE}"):
+    cookie = {} if token is None else {"cookie": f"{COOKIE}={token}"}
+    return cookie | ({} if origin is None else {"origin": origin})
 
 
 def test_a_request_to_our_own_address_is_admitted():
@@ -67,35 +72,82 @@ def test_a_foreign_origin_is_refused(origin):
     assert refused.value.code == 1008
 
 
-def test_beyond_loopback_a_socket_needs_an_origin():
-    query = "?" + urlencode({"token": TOKEN})
-    assert receives(client(), {}) == "rows"
+@pytest.mark.parametrize("site", ["cross-site", "same-site", "anything"])
+def test_what_another_site_has_begun_is_refused(site):
+    """A picture, a form, a link: no origin, but the browser says from where it comes."""
+    headers = {"sec-fetch-site": site}
+    assert client().get("/", headers=headers).status_code == 403
+    assert client().get("/static/a", headers=headers).status_code == 403
+    given = client(exposed=True).get("/", params={"token": TOKEN}, headers=headers)
+    assert given.status_code == 403
+    assert "set-cookie" not in given.headers
     with pytest.raises(WebSocketDisconnect):
-        receives(client(exposed=True), {}, query)
-    assert receives(client(exposed=True), {"origin": f"http://{HERE}"}, query) == "rows"
+        receives(client(), headers)
 
 
-@pytest.mark.parametrize("query", ["", "?token=", "?token=wrong", "?other=1"])
+@pytest.mark.parametrize("site", ["none", "same-origin"])
+def test_what_a_person_types_and_what_our_page_fetches_passes(site):
+    assert client().get("/", headers={"sec-fetch-site": site}).status_code == 200
+
+
+def test_beyond_loopback_a_socket_needs_an_origin():
+    assert receives(client()) == "rows"
+    with pytest.raises(WebSocketDisconnect):
+        receives(client(exposed=True), with_token(origin=None))
+    assert receives(client(exposed=True), with_token()) == "rows"
+
+
+@pytest.mark.parametrize("query", ["", "?token=", "?token=wrong", "?other=1", "?token=%00%ff"])
 def test_beyond_loopback_nothing_is_served_without_the_token(query):
     assert client(exposed=True).get("/" + query).status_code == 401
     with pytest.raises(WebSocketDisconnect):
-        receives(client(exposed=True), {"origin": f"http://{HERE}"}, query)
+        receives(client(exposed=True), with_token(None))
+    with pytest.raises(WebSocketDisconnect):
+        receives(client(exposed=True), with_token("wrong"))
 
 
-def test_the_token_is_kept_in_a_cookie():
+def test_the_token_moves_from_the_address_into_a_cookie():
     browser = client(exposed=True)
-    answer = browser.get("/", params={"token": TOKEN})
-    assert answer.status_code == 200
-    cookie = answer.headers["set-cookie"]
-    assert "HttpOnly" in cookie
-    assert "SameSite=Strict" in cookie
+    answer = browser.get("/", params={"token": TOKEN}, follow_redirects=False)
+    assert answer.status_code == 303
+    assert answer.headers["location"] == "/"
+    cookie = answer.headers["set-cookie"].lower()
+    for part in (f"{COOKIE}={TOKEN}", "httponly", "samesite=strict", "path=/"):
+        assert part in cookie
     assert browser.get("/").status_code == 200
-    assert client(exposed=True).get("/", headers={"cookie": "equipoise_token=x"}).status_code == 401
+    assert browser.get("/static/a").status_code == 200
 
 
-def test_a_request_that_is_too_large_is_refused():
-    assert client().post("/", content=bytes(LARGEST)).text == f"{LARGEST} bytes"
-    assert client().post("/", content=bytes(LARGEST + 1)).status_code == 413
+def test_the_token_in_an_address_opens_the_page_alone():
+    query = {"token": TOKEN}
+    for path in ("/static/a", "/live", "/runs/a", "/nothing"):
+        answer = client(exposed=True).get(path, params=query, follow_redirects=False)
+        assert answer.status_code == 401
+        assert "set-cookie" not in answer.headers
+
+
+def test_on_loopback_no_address_sets_a_cookie():
+    answer = client().get("/", params={"token": TOKEN}, follow_redirects=False)
+    assert answer.status_code == 200
+    assert "set-cookie" not in answer.headers
+
+
+def test_the_dashboard_is_read_alone():
+    for method in ("POST", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE"):
+        assert client().request(method, "/").status_code == 405
+
+
+@pytest.mark.parametrize("path", ["/nothing", "/runs", "/%00", "/..%2fsecret", "/_nicegui_ws/x"])
+def test_what_is_not_there_costs_one_sentence(path):
+    answer = client().get(path)
+    assert answer.status_code == 404
+    assert set(answer.json()) == {"refused"}
+
+
+@pytest.mark.parametrize("size", [str(LARGEST + 1), "-1", "1e9", "9" * 5000, "a", "\u00b2"])
+def test_a_request_that_is_too_large_is_refused(size):
+    answer = client().get("/", headers={"content-length": size.encode("latin-1")})
+    assert answer.status_code == 413
 
 
 def test_a_request_that_does_not_say_how_large_it_is_is_cut_off():
@@ -103,14 +155,85 @@ def test_a_request_that_does_not_say_how_large_it_is_is_cut_off():
         for _ in range(3 * LARGEST // 1000):
             yield bytes(1000)
 
-    assert client().post("/", content=pieces()).status_code != 200
+    assert client().request("GET", "/", content=pieces()).status_code != 200
 
 
-def test_nothing_from_outside_is_allowed_into_the_page():
-    policy = client().get("/").headers["content-security-policy"]
-    assert "default-src 'self'" in policy
-    assert "http" not in policy
-    assert "frame-ancestors 'none'" in policy
+# --- What a browser keeps to ---------------------------------------------------------------------
+
+
+def directives(answer):
+    policy = answer.headers["content-security-policy"]
+    return {words.split()[0]: words.split()[1:] for words in policy.split("; ")}
+
+
+def test_the_page_runs_no_script_but_its_own():
+    policy = directives(client().get("/"))
+    assert policy["default-src"] == ["'none'"]
+    (script,) = policy["script-src"]
+    assert script.startswith("'nonce-")
+    assert len(script) > 22
+    assert policy["style-src-attr"] == ["'none'"]
+    assert policy["connect-src"] == ["'self'", f"ws://{HERE}"]
+    assert policy["frame-ancestors"] == ["'none'"]
+
+
+def test_no_answer_has_the_number_of_another():
+    browser = client()
+    assert len({browser.get("/").headers["content-security-policy"] for _ in range(20)}) == 20
+
+
+@pytest.mark.parametrize("path", ["/", "/static/a", "/nothing", "/runs/a"])
+def test_no_policy_allows_what_a_text_brings(path):
+    for host in (HERE, "evil.example"):
+        answer = client(host=host).get(path)
+        policy = answer.headers["content-security-policy"]
+        for word in ("unsafe", "http", "ws: ", "wss:", "*", "evil"):
+            assert word not in policy
+        assert answer.headers["x-content-type-options"] == "nosniff"
+        assert answer.headers["referrer-policy"] == "no-referrer"
+        assert answer.headers["cross-origin-opener-policy"] == "same-origin"
+
+
+@pytest.mark.parametrize("name", ["report.html", "report.HTM", "a.svg", "a.xml", "a", "a.pdf.html"])
+def test_a_file_of_a_run_is_shown_without_scripts(name):
+    policy = of_file(name)
+    assert policy.startswith("sandbox; default-src 'none'")
+    assert "script" not in policy
+
+
+def test_a_pdf_is_shown_by_the_browser_itself():
+    assert "sandbox" not in of_file("report.pdf")
+    assert "default-src 'none'" in of_file("report.pdf")
+
+
+# --- How many ------------------------------------------------------------------------------------
+
+
+def test_pages_and_requests_are_limited():
+    gate = client().app
+    gate.pages, gate.requests = Bucket(0.0, 3), Bucket(0.0, 10)
+    browser = TestClient(gate, base_url=f"http://{HERE}")
+    assert [browser.get("/").status_code for _ in range(5)] == [200] * 3 + [429] * 2
+    assert [browser.get("/static/a").status_code for _ in range(9)] == [200] * 7 + [429] * 2
+
+
+def test_what_is_refused_takes_nobody_elses_place():
+    gate = client().app
+    gate.pages = gate.requests = Bucket(0.0, 2)
+    for host, headers in (("evil.example", {}), (HERE, {"sec-fetch-site": "cross-site"})):
+        visitor = TestClient(gate, base_url=f"http://{host}")
+        assert [visitor.get("/", headers=headers).status_code for _ in range(5)] == [403] * 5
+    assert TestClient(gate, base_url=f"http://{HERE}").get("/").status_code == 200
+
+
+def test_sockets_are_limited():
+    browser = client()
+    browser.app.sockets = SOCKETS
+    with pytest.raises(WebSocketDisconnect):
+        receives(browser)
+    browser.app.sockets = SOCKETS - 1
+    assert receives(browser) == "rows"
+    assert browser.app.sockets == SOCKETS - 1
 
 
 # --- Who commands --------------------------------------------------------------------------------
@@ -165,7 +288,8 @@ def test_files_within_the_data_folder(folder):
 
 
 OUTSIDE = ("../secret.csv", "run/../../secret.csv", "/etc/passwd", "link.csv", "missing.csv", "",
-           "run", "%2e%2e/secret.csv")  # fmt: skip
+           "run", "%2e%2e/secret.csv", "\x00", "a\x00.html", "\x1b[31m", "a\nb", "x" * 300,
+           "x/" * 3000, "\ud800")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", OUTSIDE)

@@ -43,9 +43,10 @@ def opened(running, path, origin=None, token=None):
     return connect(address, origin=origin, additional_headers=headers, open_timeout=60)
 
 
-def status_of(address):
+def status_of(address, token=None):
+    headers = {} if token is None else {"Cookie": f"equipoise_token={token}"}
     try:
-        with urllib.request.urlopen(address, timeout=60) as answer:
+        with urllib.request.urlopen(urllib.request.Request(address, headers=headers)) as answer:
             return answer.status
     except urllib.error.HTTPError as error:
         return error.code
@@ -94,7 +95,30 @@ def test_an_oversized_message_ends_its_connection_alone(running, path):
 def test_pages_and_files_need_the_token(running):
     for path in ("/", "/?token=wrong", "/static/page.js", "/runs/any.mcap"):
         assert status_of(here(running) + path) == 401
-    assert status_of(f"{here(running)}/static/page.js?token={running.token}") == 200
+        assert status_of(here(running) + path, "wrong") == 401
+    for path in ("/", "/static/page.js", "/favicon.ico"):
+        assert status_of(here(running) + path, running.token) == 200
+
+
+NOT_THERE = ("/runs/%00", "/runs/a%00.html", "/runs/%1b%5b2J", "/runs/" + "x" * 300, "/runs/",
+             "/runs/%ff", "/nothing", "/_nicegui/x", "/_nicegui/%00", "/static/%00", "/static/x%0a",
+             "/static/../secret", "/_nicegui_ws/socket.io/?EIO=4&transport=polling")  # fmt: skip
+
+
+@pytest.mark.parametrize("path", NOT_THERE)
+def test_what_is_not_there_is_404_and_no_fault(running, path):
+    assert status_of(here(running) + path, running.token) == 404
+
+
+def test_a_report_of_others_is_shown_without_scripts(running):
+    folder = running.folder / "runs" / "theirs"
+    folder.mkdir(parents=True)
+    (folder / "report.html").write_text("<script>document.title = 'ran'</script>")
+    headers = {"Cookie": f"equipoise_token={running.token}"}
+    address = f"{here(running)}/runs/theirs/report.html"
+    with urllib.request.urlopen(urllib.request.Request(address, headers=headers)) as answer:
+        assert answer.headers["content-security-policy"].startswith("sandbox; default-src 'none'")
+        assert answer.headers["x-content-type-options"] == "nosniff"
 
 
 @thorough.whole
@@ -105,8 +129,9 @@ def test_the_address_that_was_printed_opens_the_page(running):
         page = chromium.new_page()
         received = Received(page)
         page.goto(running.url)
+        assert page.url == here(running) + "/"  # the token stays in no address
         expect(page.locator("#eq-link")).to_contain_text("connected", timeout=LATER)
-        page.wait_for_function("window.equipoise?.state().link === 'open'", timeout=LATER)
+        page.wait_for_function("() => window.equipoise?.state().link === 'open'", timeout=LATER)
         start = page.get_by_role("button", name="Start balancing", exact=True)
         expect(start).to_be_disabled()
         page.get_by_label("Token").fill(running.token)

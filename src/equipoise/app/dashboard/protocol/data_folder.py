@@ -9,6 +9,7 @@ from equipoise.model.errors import InputError
 
 RECORDINGS = "recordings"
 SUFFIX = ".mcap"
+SHOWN = 100  # characters of a name that was not found; chosen
 
 
 def data_folder() -> Path:
@@ -19,11 +20,19 @@ def data_folder() -> Path:
 def within(folder: Path, name: str) -> Path:
     """Return a file of the folder by its name in it; InputError for what is outside, or not there.
 
-    Links are followed before the location of a file is checked.
+    Links are followed before the location of a file is checked. A name that the system refuses
+    (too long, with a zero in it) is one that is not there.
     """
-    path = (folder / name).resolve()
-    if not path.is_relative_to(folder.resolve()) or not path.is_file():
-        raise InputError("file", f"'{name}'", f"a file within {folder}")
+    wanted = f"a file within {folder}"
+    if not name.isprintable():
+        raise InputError("file", ascii(name)[:SHOWN], wanted)
+    try:
+        path = (folder / name).resolve()
+        there = path.is_relative_to(folder.resolve()) and path.is_file()
+    except (OSError, ValueError):
+        there, path = False, folder
+    if not there:
+        raise InputError("file", f"'{name[:SHOWN]}'", wanted)
     return path
 
 

@@ -1,6 +1,6 @@
 """The column of controls: a person's requests. Observers see it, their requests are refused."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from nicegui import ui
 
@@ -8,7 +8,15 @@ from equipoise.app.arguments.checks import Triple
 from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.data_folder import recordings
 from equipoise.app.dashboard.protocol.series import AXES
-from equipoise.app.dashboard.server.request_queue import Counter
+from equipoise.app.dashboard.server.fields import (
+    Field,
+    choice,
+    number_field,
+    offer,
+    switch,
+    text_field,
+)
+from equipoise.app.dashboard.server.request_queue import AUTO, Counter
 from equipoise.app.text.numbers import TRAVEL
 from equipoise.model.testbed import SlidingMass
 from equipoise.model.units import UM, in_si
@@ -56,7 +64,7 @@ class Controls:
         kept = state.get("kept")
         files = (state.get("recording"), kept)
         if files != self._listed:
-            self.chosen.set_options(recordings(counter.folder))
+            offer(self.chosen, words(recordings(counter.folder)))
             self._listed = files
         self.reports.set_visibility(bool(kept))
         if kept:
@@ -68,24 +76,25 @@ class Controls:
 
     def _token_row(self) -> None:
         with ui.row().classes("eq-token"):
-            self.token = ui.input("Token").props(
+            self.token = text_field("Token")
+            self.token.element.props(
                 'dense outlined autocomplete=off aria-label="Token" input-class="eq-secret"'
             )
-            self.token.on("keydown.enter", self._command)
+            self.token.element.on("keydown.enter", self._command, [])
             self.command = button("Command", self._command)
 
     def _balance(self) -> None:
-        laws = list(self._counter.laws)
-        self.law = ui.select(laws, value=laws[0], label="Law").props("dense outlined options-dense")
+        laws = self._counter.laws
+        self.law = choice(words(laws), laws[0])
+        self.law.element.props("dense outlined options-dense label=Law")
         self.target = triple("Target", TARGET_UM)
         self.tolerance = triple("Tolerance", TOLERANCE_UM)
-        self.held = ui.checkbox("Somebody holds the platform level").props("dense")
-        self.held.set_visibility(self._counter.watch.about.get("bench") == "real")
+        self.held = switch("q-checkbox", "Somebody holds the platform level")
+        self.held.element.props("dense")
+        self.held.element.set_visibility(self._counter.watch.about.get("bench") == "real")
         ui.separator()
-        methods = ["auto", *self._counter.methods]
-        self.method = ui.select(methods, value="auto", label="Method").props(
-            "dense outlined options-dense"
-        )
+        self.method = choice(words([AUTO, *self._counter.methods]), AUTO)
+        self.method.element.props("dense outlined options-dense label=Method")
         self._button("Identify from the recorded motion", self._identify)
 
     def _masses(self) -> None:
@@ -97,9 +106,8 @@ class Controls:
     def _jog(self, mass: SlidingMass) -> None:
         low, high = (edge / TRAVEL.size for edge in mass.travel)
         with ui.row().classes("eq-jog"):
-            field = ui.number(
-                f"{mass.name}: {low:g} to {high:g} mm", value=0.0, min=low, max=high, format="%.2f"
-            ).props(f'dense outlined aria-label="{mass.name} in mm"')
+            field = number_field(f"{mass.name}: {low:g} to {high:g} mm", 0.0, "%.2f")
+            field.element.props(f'dense outlined aria-label="{mass.name} in mm"')
 
             def move() -> None:
                 if field.value is not None:
@@ -110,21 +118,23 @@ class Controls:
     def _data(self) -> None:
         self.record = self._button("Record", self._record)
         with ui.row().classes("eq-jog"):
-            self.text = ui.input("What happened").props("dense outlined")
+            self.text = text_field("What happened")
+            self.text.element.props('dense outlined aria-label="What happened"')
             self._button("Mark", lambda: self._request(requests.Mark(self.text.value or "mark")))
-        self.chosen = ui.select([], label="Recording").props("dense outlined options-dense")
+        self.chosen = choice({}, None)
+        self.chosen.element.props("dense outlined options-dense label=Recording")
         with ui.row().classes("eq-buttons"):
             self._button("Replay", self._replay)
             self._button("Back to the simulation", lambda: self._request(requests.Replay("")))
         with ui.row().classes("eq-reports") as self.reports:
             ui.label("Report of the last run:")
-            self.html = ui.link("HTML", "#", new_tab=True)
-            self.pdf = ui.link("PDF", "#", new_tab=True)
+            self.html, self.pdf = (anchor("HTML"), anchor("PDF"))
 
     def _bench(self) -> None:
-        ui.select(SPEEDS, value=1.0, label="Speed", on_change=lambda event: self._request(
-            requests.Speed(event.value))).props("dense outlined options-dense")  # fmt: skip
-        self.seed = ui.number("Seed", value=2, min=0, precision=0).props("dense outlined")
+        speed = choice(SPEEDS, 1.0, lambda factor: self._request(requests.Speed(factor)))
+        speed.element.props("dense outlined options-dense label=Speed")
+        self.seed = number_field("Seed", 2)
+        self.seed.element.props("dense outlined")
         self._button("Another simulated platform", self._anew)
 
     # --- Requests ----------------------------------------------------------------------------
@@ -145,19 +155,17 @@ class Controls:
         if guard.commands(self._page):
             guard.leave(self._page)
         else:
-            why = guard.take(self._page, self.token.value or "")
-            self.token.set_value("")
+            why = guard.take(self._page, self.token.value)
+            self.token.put("")
             ui.notify(why or "This page commands now.", type="negative" if why else "positive")
         self.refresh()
 
     def _start(self) -> None:
         target, tolerance = lengths(self.target), lengths(self.tolerance)
-        if target is None or tolerance is None or min(tolerance) <= 0:
-            ui.notify("Target and tolerance need three numbers each, tolerances above 0.")
+        if target is None or tolerance is None:
+            ui.notify("Target and tolerance need three numbers each.")
             return
-        wanted = requests.Balance(
-            target, tolerance, str(self.law.value), None, bool(self.held.value)
-        )
+        wanted = requests.Balance(target, tolerance, self.law.value, None, self.held.value)
         paused = self._counter.watch.state.get("phase") == "paused"
         self._request(*_first_let_go(paused), wanted)
 
@@ -166,37 +174,41 @@ class Controls:
         self._request(requests.Pause(not held))
 
     def _identify(self) -> None:
-        self._request(requests.Identify(str(self.method.value)))
+        self._request(requests.Identify(self.method.value))
 
     def _record(self) -> None:
         self._request(requests.Record(not self._counter.watch.state.get("recording")))
 
     def _replay(self) -> None:
         if self.chosen.value:
-            self._request(requests.Replay(str(self.chosen.value)))
+            self._request(requests.Replay(self.chosen.value))
 
     def _anew(self) -> None:
-        if self.seed.value is not None and self.seed.value >= 0:
-            self._request(requests.Anew(int(self.seed.value)))
+        seed = self.seed.value
+        if seed is not None:
+            self._request(requests.Anew(int(seed)))
 
 
 def _first_let_go(paused: bool) -> Sequence[requests.Request]:
     return (requests.Pause(False),) if paused else ()
 
 
-def triple(what: str, shown_um: Triple) -> list[ui.number]:
+def words(names: Iterable[str]) -> dict[str, str]:
+    """Return names as options, each in its own words."""
+    return {name: name for name in names}
+
+
+def triple(what: str, shown_um: Triple) -> list[Field[float | None]]:
     """Lay three number fields side by side, labelled by axis."""
     ui.label(f"{what} (µm)").classes("eq-label")
     with ui.row().classes("eq-triple"):
-        return [
-            ui.number(axis, value=value, format="%g").props(
-                f'dense outlined aria-label="{what} {axis} in um"'
-            )
-            for axis, value in zip(AXES, shown_um, strict=True)
-        ]
+        fields = [number_field(axis, value) for axis, value in zip(AXES, shown_um, strict=True)]
+    for axis, field in zip(AXES, fields, strict=True):
+        field.element.props(f'dense outlined aria-label="{what} {axis} in um"')
+    return fields
 
 
-def lengths(fields: Sequence[ui.number]) -> Triple | None:
+def lengths(fields: Sequence[Field[float | None]]) -> Triple | None:
     """Return the lengths (m) in three fields in um; None if one is missing."""
     x, y, z = (field.value for field in fields)
     if x is None or y is None or z is None:
@@ -207,3 +219,10 @@ def lengths(fields: Sequence[ui.number]) -> Triple | None:
 def button(text: str, do: Callable[[], None], style: str = "outline") -> ui.button:
     """Lay a button; its text is what it does."""
     return ui.button(text, on_click=do).props(f"{style} no-caps dense").classes("eq-button")
+
+
+def anchor(text: str) -> ui.element:
+    """Lay a link that opens beside the page; the page cannot be reached from there."""
+    with ui.element("a").props("target=_blank rel=noopener") as made:
+        ui.label(text)
+    return made

@@ -5,6 +5,7 @@ import socket
 import threading
 from collections.abc import AsyncGenerator
 from contextlib import asynccontextmanager, suppress
+from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
@@ -20,8 +21,11 @@ from equipoise.app.dashboard.runner.request_handler import LEAVE
 from equipoise.app.dashboard.runner.runner_process import Opening, run_runner
 from equipoise.app.dashboard.server.broadcast import GONE, Watch
 from equipoise.app.dashboard.server.gate import LARGEST, Doors, Gate
-from equipoise.app.dashboard.server.layout import build
+from equipoise.app.dashboard.server.layout import open_page
+from equipoise.app.dashboard.server.limits import BACKLOG, Waiting, limited
+from equipoise.app.dashboard.server.policies import of_file
 from equipoise.app.dashboard.server.request_queue import Counter
+from equipoise.app.dashboard.server.shell import prepare
 from equipoise.hardware.bench.stop_signals import HANG_UP, handled
 from equipoise.model.errors import EquipoiseError, InputError
 
@@ -86,9 +90,10 @@ def application(counter: Counter, pipe: Pipe, doors: Doors) -> Gate:
 
     app = FastAPI(lifespan=living, docs_url=None, redoc_url=None, openapi_url=None)
     _routes(app, counter)
-    ui.page("/", title=f"Equipoise: {counter.testbed.name}")(lambda: build(counter))
+    ui.page("/", title=f"Equipoise: {counter.testbed.name}")(partial(open_page, counter))
     ui.run_with(app, binding_refresh_interval=None, tailwind=False, show_welcome_message=False)
     core.sio.eio.max_http_buffer_size = LARGEST
+    prepare()
     return Gate(app, doors, counter.guard)  # type: ignore[arg-type]
 
 
@@ -97,7 +102,8 @@ def _routes(app: FastAPI, counter: Counter) -> None:
 
     @app.get("/runs/{name:path}")
     def run_file(name: str) -> FileResponse:
-        return FileResponse(within(counter.folder, name))
+        path = within(counter.folder, name)
+        return FileResponse(path, headers={"content-security-policy": of_file(path.name)})
 
     @app.exception_handler(InputError)
     def not_there(_request: object, error: InputError) -> JSONResponse:
@@ -138,8 +144,9 @@ async def _shown(page: WebSocket, watch: Watch) -> None:
 def serve(app: Gate, at: socket.socket) -> None:
     """Serve until Ctrl-C and its like; the server knows of two of these signals by itself."""
     config = uvicorn.Config(
-        app, log_level="warning", ws_max_size=LARGEST, timeout_graceful_shutdown=1, access_log=False
-    )
+        app, log_level="error", ws_max_size=LARGEST, timeout_graceful_shutdown=1,
+        access_log=False, http=limited(Waiting()), backlog=BACKLOG,  # type: ignore[arg-type]
+    )  # fmt: skip
     server = uvicorn.Server(config)
     with handled(HANG_UP, server.handle_exit):
         server.run(sockets=[at])

@@ -1,6 +1,6 @@
 /**
  * The page's beginning: one store of what the server sends, views of it in the containers that
- * the shell makes, and `window.equipoise` for the shell's buttons and the tests.
+ * the shell makes, and `window.equipoise` for the tests.
  */
 
 import { sayInstead } from "./instead.js";
@@ -55,15 +55,17 @@ function state() {
   return { clock: about?.clock ?? null, t, series, steps: steps.size, frames, link };
 }
 
-window.equipoise = {
-  units: (kind) => change({ kind }),
-  span: (span_s) => change({ span_s }),
-  follow: (follow) => change({ follow }),
-  dark(on) {
-    document.documentElement.dataset.theme = on ? "dark" : "light";
-  },
-  state,
-};
+window.equipoise = { state };
+
+/** The shell's switches of this page alone stand in attributes. @param {HTMLElement} place */
+function followSwitches(place) {
+  const follow = () => {
+    const { span, units, dark } = place.dataset;
+    document.documentElement.dataset.theme = dark === "true" ? "dark" : "light";
+    change({ kind: units, span_s: Number(span) });
+  };
+  new MutationObserver(follow).observe(place, { attributes: true });
+}
 
 // Whoever changes the theme, canvases have to be drawn anew.
 new MutationObserver(() => store.notify("recolour")).observe(document.documentElement, {
@@ -78,6 +80,7 @@ keepLinked(
   },
 );
 
+present("eq-shown").then(followSwitches);
 present("eq-link").then((place) => {
   sayLink = linkWords(place);
   sayLink(link);
