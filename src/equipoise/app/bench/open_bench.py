@@ -124,11 +124,11 @@ def real_bench(wanted: Wanted, let_go: Callable[[], None] | None = None) -> Gene
             bench.read(HAND)
         bench.watch()
         if wanted.live:
-            stderr().print(f"Foxglove WebSocket: {ADDRESS}; layout: {LAYOUT}", markup=False)
+            stderr().print(f"Foxglove WebSocket: {ADDRESS}; layout: {LAYOUT}")
         yield bench
         for sentence in bench.lost:
             complain(sentence)
         for each in bench.health():
-            stderr().print(each.sentence, style="red" if each.wrong else None, markup=False)
+            stderr().print(each.sentence, style="red" if each.wrong else None)
     finally:
         distant.close()

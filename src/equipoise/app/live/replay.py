@@ -94,4 +94,4 @@ class _Lines:
             return
         self._reported = newest.time
         texts = (time_of(newest), tilt_of(newest), *masses_of(newest))
-        self._console.print("  ".join(filter(None, texts)), markup=False)
+        self._console.print("  ".join(filter(None, texts)))

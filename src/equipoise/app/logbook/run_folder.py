@@ -38,7 +38,8 @@ def slug(platform: str) -> str:
     return for_file_name(platform)
 
 
-def free(folder: Path) -> Path:
-    """Return a path that is not there yet: the one given, or with a number."""
-    numbered = (folder.with_name(f"{folder.name}_{k}") for k in count(2))
-    return next(path for path in chain((folder,), numbered) if not path.exists())
+def free(folder: Path, suffix: str = "") -> Path:
+    """Return a path that is not there yet: the one given, or with a number before its suffix."""
+    numbers = chain(("",), (f"_{k}" for k in count(2)))
+    paths = (folder.with_name(f"{folder.name}{number}{suffix}") for number in numbers)
+    return next(path for path in paths if not path.exists())

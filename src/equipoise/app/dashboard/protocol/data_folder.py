@@ -48,4 +48,4 @@ def new_recording(folder: Path, platform: str) -> Path:
     where = folder / RECORDINGS
     where.mkdir(parents=True, exist_ok=True)
     now = datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
-    return free(where / f"{now}_{slug(platform)}{SUFFIX}")
+    return free(where / f"{now}_{slug(platform)}", SUFFIX)

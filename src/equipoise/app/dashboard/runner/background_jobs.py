@@ -8,6 +8,7 @@ from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
 from typing import Any
 
+from equipoise.app.console.crash_file import crash_of
 from equipoise.app.logbook.run_folder import own_folder
 from equipoise.app.report.run_record import Output
 from equipoise.app.report.write import write_output
@@ -37,6 +38,7 @@ class Fit:
     method: str
 
 
+COMMAND = ("dashboard",)  # whose processes these are, for a crash file
 Task = Keep | Fit
 News = tuple[str, Any]  # "step": Step; "kept": name of the run's folder; "failed": a sentence
 
@@ -80,7 +82,7 @@ def carry_out(pipe: Pipe, task: Task) -> None:
     except EquipoiseError as error:
         pipe.send(("failed", str(error)))
     except Exception as error:
-        pipe.send(("failed", f"{type(error).__name__}: {error}"))
+        pipe.send(("failed", crash_of(error, COMMAND).sentence))
 
 
 def _keep(task: Keep) -> str | None:

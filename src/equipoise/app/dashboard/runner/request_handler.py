@@ -8,8 +8,10 @@ import numpy as np
 
 from equipoise.app.arguments.inputs import fitting_recording_of
 from equipoise.app.arguments.options import WHOLE
+from equipoise.app.console.crash_file import crash_of
 from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.data_folder import within
+from equipoise.app.dashboard.runner.background_jobs import COMMAND
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.runner import Runner
 from equipoise.app.runs.balancing import Goal, Limits
@@ -65,6 +67,10 @@ class Desk:
             do(requests.sound(request))
         except EquipoiseError as error:
             self._runner.say(str(error))
+        except (EOFError, ConnectionError):  # the server is gone: nothing is left to do here
+            raise
+        except Exception as error:  # a request that fails ends neither runner nor view
+            self._runner.say(crash_of(error, COMMAND).sentence)
 
     def _at_once(self, request: requests.Request) -> None:
         runner = self._runner

@@ -13,6 +13,8 @@ from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
 from uuid import uuid4
 
+from equipoise.app.console.crash_file import crash_of
+from equipoise.app.dashboard.runner.background_jobs import COMMAND
 from equipoise.app.dashboard.runner.benches import Station, real, replayed, simulated
 from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
@@ -49,6 +51,9 @@ def run_runner(pipe: Pipe, opening: Opening) -> None:
             pipe.send(("failed", str(error)))
     except (EOFError, OSError):
         return
+    except Exception as error:
+        with suppress(OSError):
+            pipe.send(("failed", crash_of(error, COMMAND).sentence))
 
 
 def _serve(pipe: Pipe, station: Station, opening: Opening) -> None:

@@ -39,14 +39,18 @@ class Watch:
                 self._rows, self._bytes = deque(), 0
             case "step":
                 self.steps[what["index"]] = what
+            case "failed":
+                self.end(what)
+                return
             case _:
                 self.state = what
         self._hand_on(json.dumps(what))
 
     def end(self, why: str) -> None:
-        """Note that the runner has ended, and inform the pages."""
-        self.ended = why
-        self.take("state", {**self.state, "kind": "state", "phase": "stopped", "note": why})
+        """Note that the runner has ended, and inform the pages; the first reason stays."""
+        self.ended = self.ended or why
+        known = {**self.state, "kind": "state", "recording": None}  # nobody writes it any more
+        self.take("state", {**known, "phase": "stopped", "note": self.ended})
 
     def join(self) -> "asyncio.Queue[Message]":
         """Return what a page gets: all that is kept, then what comes."""
