@@ -118,8 +118,12 @@ def test_a_page_that_does_not_keep_up_is_let_go():
 
 
 def test_the_end_of_the_runner_is_reported_to_pages():
+    """Nothing is recorded any more; of two reasons the first says why."""
     watch = Watch()
     page = watch.join()
+    watch.take("state", {"kind": "state", "recording": "recordings/run.mcap"})
+    watch.take("failed", "an error that nobody has foreseen")
     watch.end("over")
-    assert json.loads(drained(page)[-1])["note"] == "over"
-    assert watch.ended == "over"
+    shown = json.loads(drained(page)[-1])
+    assert shown["note"] == watch.ended == "an error that nobody has foreseen"
+    assert (shown["phase"], shown["recording"]) == ("stopped", None)

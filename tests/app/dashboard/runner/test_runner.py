@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.app.dashboard.protocol import requests
+from equipoise.app.dashboard.protocol.data_folder import recordings
 from equipoise.app.dashboard.protocol.series import series_of
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.chart_rows import parts_of
@@ -301,3 +302,28 @@ def test_time_is_held_to_the_wall_and_what_is_late_is_forgotten(monkeypatch):
     assert sum(pace.wait(0.1) == 0.0 for _ in range(100)) < 12  # half a second is made up for
     pace.at(0.0)
     assert pace.wait(1e9) == 0.0
+
+
+def test_a_request_that_fails_as_nobody_foresaw_ends_nothing(room, crash_folder):
+    """A mass that is no mass: whatever is raised is a note, with a crash file."""
+    before = set(crash_folder.glob("*"))
+    room.runner.station.bench.move = {}.__getitem__
+    room.request(requests.Jog(room.runner.station.testbed.mass_names[0], 0.001))
+    room.turn(2)
+    assert "an error that nobody has foreseen" in room.reported.state["note"]
+    assert len(set(crash_folder.glob("*")) - before) == 1
+    shown = len(room.reported.rows("pose"))
+    room.turn(10)
+    assert len(room.reported.rows("pose")) > shown
+
+
+def test_recordings_of_one_second_have_names_of_their_own(room):
+    names = []
+    for _ in range(3):
+        room.request(requests.Record(True))
+        room.turn(1)
+        names.append(room.reported.state["recording"])
+        room.request(requests.Record(False))
+        room.turn(1)
+    assert len(set(names)) == 3
+    assert sorted(recordings(room.folder)) == sorted(names)
