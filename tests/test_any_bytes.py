@@ -1,15 +1,28 @@
 """Whatever bytes arrive, no parser raises anything but the declared error."""
 
 import os
+import resource
+import tempfile
+from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.support import thorough
+from tests.support.document_fuzz_targets import SHAKES as OF_DOCUMENTS
+from tests.support.document_fuzz_targets import TARGETS as DOCUMENTS
 from tests.support.driver_fuzz_targets import TARGETS as DEVICES
 from tests.support.file_fuzz_targets import TARGETS as FILES
+from tests.support.fuzz_target import folder
+from tests.support.structured_bytes import SHAKES as OF_FILES
+from tests.support.watched_files import WATCHER
 
+SHAKES = {**OF_FILES, **OF_DOCUMENTS}
+STRUCTURED = [each for each in (*FILES, *DOCUMENTS) if each.name in SHAKES]
+TRIED = 2000 // len(STRUCTURED) + 1  # of each; a million in ``verification.structures``
+ROOM = 1 << 30  # bytes that a reader may take
 EXAMPLES, FEWEST = int(os.environ.get("EQUIPOISE_FUZZ", thorough.count(150, 50))), 10
 
 
@@ -25,3 +38,27 @@ def test_no_bytes_raise(target):
         target.take(valid[:at] + junk + valid[at + lost :] if inside else junk)
 
     fuzz()
+
+
+@pytest.fixture
+def one_gigabyte():
+    """Let this process grow by a gigabyte, and no more."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    status = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
+    (data,) = (int(line.split()[1]) << 10 for line in status if line.startswith("VmData"))
+    resource.setrlimit(resource.RLIMIT_DATA, (data + ROOM, hard))
+    yield
+    resource.setrlimit(resource.RLIMIT_DATA, (soft, hard))
+
+
+@pytest.mark.parametrize("target", STRUCTURED, ids=lambda each: each.name)
+def test_no_structure_raises(target, one_gigabyte):
+    """A file that is taken apart and put together wrongly; nothing is written elsewhere."""
+    rng, valid = np.random.default_rng(7), target.valid()
+    target.take(valid)
+    WATCHER.found = []
+    for _ in range(TRIED):
+        content = SHAKES[target.name](valid, rng)
+        with WATCHER.watching(str(folder()), tempfile.gettempdir()):
+            target.take(content)
+    assert WATCHER.found == []

@@ -39,6 +39,7 @@ TEXTS = (
     "99:99:99", "1.0D+400", "a" * 5000, "0" * 400, "time_s", "q_w", '"', "''", "#", "%",
 )  # fmt: skip
 MOST_ROWS, MOST_TIMES, MOST_DEEP = 3000, 200, 2000
+REGULAR = 1_000_000  # bytes of a file
 BAG_HEAD, MCAP_HEAD, ULOG_HEAD, PCAP_HEAD, MAT_HEAD = 13, 8, 16, 24, 128
 
 
@@ -71,11 +72,12 @@ def shaken(parts: list[Any], rng: Rng, change: Callable[[Any], Any]) -> list[Any
 
 
 def several(shake: Shake) -> Shake:
-    """Return what makes one to four changes."""
+    """Return what makes one to four changes, none of which makes a file too long."""
 
     def changes(content: bytes, rng: Rng) -> bytes:
         for _ in range(int(rng.integers(1, 5))):
-            content = shake(content, rng)
+            made = shake(content, rng)
+            content = made if len(made) <= REGULAR else content
         return content
 
     return changes

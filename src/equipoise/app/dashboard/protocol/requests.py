@@ -11,11 +11,11 @@ from typing import Annotated, Any, get_args
 
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
+from equipoise.io.toml.plausible import SIZES
 from equipoise.model.errors import InputError
 
 FASTEST = 100.0  # times, chosen
-LENGTH = 10.0  # m, chosen: no platform on an air bearing is longer
-YEAR = 3.2e7  # s, chosen: no recording is longer
+LENGTH, LASTING = SIZES["length"], SIZES["time"]  # m, s
 LETTERS = 400  # of a text, chosen: a few lines
 SHOWN = 40  # characters of a found value that are repeated; chosen: half a line
 PLAIN = r"^[^\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]*$"  # no control, no change of direction
@@ -35,9 +35,9 @@ Factor = Annotated[float, Field(
     description=f"0 (as fast as possible) to {FASTEST:g}")]  # fmt: skip
 Seed = Annotated[int, Field(ge=0, lt=2**63, description="a whole number of at least 0, below 2^63")]
 Moment = Annotated[float, Field(
-    ge=-YEAR, le=YEAR, allow_inf_nan=False, description="a time in s")]  # fmt: skip
+    ge=-LASTING, le=LASTING, allow_inf_nan=False, description="a time in s")]  # fmt: skip
 Lasting = Annotated[float, Field(
-    gt=0, le=YEAR, allow_inf_nan=False, description="a duration above 0 s")]  # fmt: skip
+    gt=0, le=LASTING, allow_inf_nan=False, description="a duration above 0 s")]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

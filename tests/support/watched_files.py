@@ -1,0 +1,56 @@
+"""What a reader does beside reading: files that it writes elsewhere, programs that it begins."""
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+WRITING = {"os.remove", "os.rename", "os.mkdir", "os.rmdir", "os.link", "os.symlink", "os.truncate",
+           "shutil.rmtree", "shutil.move"}  # fmt: skip
+ELSEWHERE = {"subprocess.Popen", "os.system", "os.exec", "os.fork", "socket.connect"}
+
+
+class Watcher:
+    """Notes what is written outside some folders, and what leaves the process, while it is on."""
+
+    def __init__(self) -> None:
+        self.on, self.found = False, list[str]()
+        self.folders: tuple[str, ...] = ()
+        sys.addaudithook(self._heard)
+
+    def _heard(self, event: str, words: tuple[Any, ...]) -> None:
+        if not self.on:
+            return
+        if event in ELSEWHERE:
+            self.found.append(f"{event} {words[:1]}")
+        elif event in WRITING or (event == "open" and self._writes(words)):
+            place = self._place(event, words)
+            if place and not place.startswith((*self.folders, "/dev/null")):
+                self.found.append(f"{event} {place}")
+
+    @staticmethod
+    def _place(event: str, words: tuple[Any, ...]) -> str:
+        """Return the path that is meant, also one within an open folder; none for a handle."""
+        if isinstance(words[0], int):
+            return ""
+        folder = words[1] if event in ("os.remove", "os.rmdir") else -1
+        base = os.readlink(f"/proc/self/fd/{folder}") if folder >= 0 else ""
+        return os.path.realpath(os.path.join(base, os.fsdecode(words[0])))
+
+    @staticmethod
+    def _writes(words: tuple[Any, ...]) -> bool:
+        flags = words[2] if len(words) > 2 and isinstance(words[2], int) else 0
+        return bool(flags & (os.O_WRONLY | os.O_RDWR | os.O_CREAT))
+
+    @contextmanager
+    def watching(self, *folders: str) -> Iterator[None]:
+        """Watch for a while."""
+        self.folders, self.on = tuple(map(os.path.realpath, folders)), True
+        try:
+            yield
+        finally:
+            self.on = False
+
+
+WATCHER = Watcher()

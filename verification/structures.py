@@ -1,0 +1,101 @@
+"""Valid files taken apart, changed, put together: does one raise, take too much or too long?"""
+
+import resource
+import tempfile
+import time
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tests.support.document_fuzz_targets import SHAKES as OF_DOCUMENTS
+from tests.support.document_fuzz_targets import TARGETS as DOCUMENTS
+from tests.support.file_fuzz_targets import TARGETS as FILES
+from tests.support.fuzz_target import Target, folder
+from tests.support.structured_bytes import REGULAR
+from tests.support.structured_bytes import SHAKES as OF_FILES
+from tests.support.watched_files import WATCHER
+from verification.result import Result, Row, Spread, at_most, in_turn
+
+SHAKES = {**OF_FILES, **OF_DOCUMENTS}
+TARGETS = tuple(each for each in (*FILES, *DOCUMENTS) if each.name in SHAKES)
+SHARES = {"bag of ROS 2": 0.1, "Zstandard": 0.5, "gzip": 0.5}  # of the slow ones
+BATCH = 1000  # inputs to a seed
+SLOWEST, MOST_MB = 5.0, 1000.0  # s and MB that one input may take
+SHOWN, REPORTED = 400, 20  # bytes of an input that is told; errors that are
+
+
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """What became of a batch."""
+
+    inputs: dict[str, int]  # by target
+    raised: tuple[str, ...]
+    outside: tuple[str, ...]  # what was written elsewhere, or begun
+    slowest: dict[str, float]  # s, by target
+    peak_mb: float  # of the whole process
+
+
+def tried(seed: int) -> Tried:
+    """Try a batch, targets by their shares."""
+    rng = np.random.default_rng(seed)
+    share = np.array([SHARES.get(each.name, 1.0) for each in TARGETS])
+    picks = rng.choice(len(TARGETS), BATCH, p=share / share.sum())
+    inputs, raised, slowest = dict.fromkeys(names(), 0), list[str](), dict.fromkeys(names(), 0.0)
+    WATCHER.found = []
+    for target in (TARGETS[k] for k in picks):
+        content = SHAKES[target.name](target.valid(), rng)[:REGULAR]
+        begun = time.perf_counter()
+        with WATCHER.watching(str(folder()), tempfile.gettempdir()):
+            raised += _raised(target, content)
+        slowest[target.name] = max(slowest[target.name], time.perf_counter() - begun)
+        inputs[target.name] += 1
+    return Tried(inputs, tuple(raised), tuple(WATCHER.found), slowest, peak_mb())
+
+
+def peak_mb() -> float:
+    """Return how large this process has been at most."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1000
+
+
+def names() -> list[str]:
+    """Return the names of all targets."""
+    return [each.name for each in TARGETS]
+
+
+def _raised(target: Target, content: bytes) -> list[str]:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            target.take(content)
+    except Exception as error:  # whatever it is, it is told
+        return [f"{target.name}: {error!r}; input {content[:SHOWN].hex()}"]
+    return []
+
+
+def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
+    """Try a batch for each seed."""
+    for target in TARGETS:
+        target.take(target.valid())
+    batches = spread(tried, seeds)
+    counts = {name: sum(each.inputs[name] for each in batches) for name in names()}
+    slowest = {name: max(each.slowest[name] for each in batches) for name in names()}
+    raised = [sentence for each in batches for sentence in each.raised]
+    outside = [sentence for each in batches for sentence in each.outside]
+    rows: tuple[Row, ...] = (
+        at_most(
+            f"of {sum(counts.values())} inputs raised what is not declared", len(raised), 0, "d"
+        ),
+        at_most("files written elsewhere, programs or connections begun", len(outside), 0, "d"),
+        at_most("slowest input, s", max(slowest.values()), SLOWEST),
+        at_most("largest process, MB", max(each.peak_mb for each in batches), MOST_MB),
+    )
+    claim = (
+        f"{len(TARGETS)} kinds of files, of at most 1 MB, are cut into rows and cells, keys and "
+        "values, records, members or columns; some of these are changed, lost, repeated or put "
+        "elsewhere, and the whole is written anew. Each is read, or refused with a remedy."
+    )
+    tries = ", ".join(f"{name} {counts[name]} ({slowest[name] * 1e3:.0f})" for name in names())
+    note = f"Inputs of each, and the slowest of them in ms: {tries}."
+    return Result("structures", claim, rows, (note, *raised[:REPORTED], *outside[:REPORTED]))
