@@ -4,6 +4,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 WRITING = {"os.remove", "os.rename", "os.mkdir", "os.rmdir", "os.link", "os.symlink", "os.truncate",
@@ -35,8 +36,8 @@ class Watcher:
         if isinstance(words[0], int):
             return ""
         folder = words[1] if event in ("os.remove", "os.rmdir") else -1
-        base = os.readlink(f"/proc/self/fd/{folder}") if folder >= 0 else ""
-        return os.path.realpath(os.path.join(base, os.fsdecode(words[0])))
+        base = Path(f"/proc/self/fd/{folder}").readlink() if folder >= 0 else Path.cwd()
+        return str((base / os.fsdecode(words[0])).resolve())
 
     @staticmethod
     def _writes(words: tuple[Any, ...]) -> bool:
@@ -46,7 +47,7 @@ class Watcher:
     @contextmanager
     def watching(self, *folders: str) -> Iterator[None]:
         """Watch for a while."""
-        self.folders, self.on = tuple(map(os.path.realpath, folders)), True
+        self.folders, self.on = tuple(str(Path(each).resolve()) for each in folders), True
         try:
             yield
         finally:

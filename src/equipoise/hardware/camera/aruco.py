@@ -6,6 +6,8 @@ fiducial markers under occlusion", Pattern Recognition 47(6), 2280-2292.
 Coordinates of pixels: whole numbers are centres, (0, 0) that of the first.
 """
 
+import io
+import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +25,7 @@ PREFIX = "DICT_"
 THRESHOLD = 23
 # px, sd, chosen: all tags of an AprilGrid of 50 to 160 px are then found, sharp or out of focus.
 ROUNDED = 1.5
+MOST_PIXELS = 100_000_000  # of a picture, chosen: twice the largest camera on a bench
 
 
 def opencv(where: str) -> Any:
@@ -96,10 +99,22 @@ def count_of(markers: Any) -> int:
     return len(markers.bytesList)
 
 
+def _pixels(data: bytes) -> int:
+    """Return how many pixels a picture says that it has; 0 for what is no picture."""
+    pillow = needed("PIL.Image", "camera", "camera")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of sizes, which are checked here
+            width, height = pillow.open(io.BytesIO(data)).size
+    except Exception:  # a parser of broken bytes raises anything
+        return 0
+    return width * height
+
+
 def decoded(data: bytes) -> Picture | None:
-    """Return an encoded picture in greys; None for what is none."""
+    """Return an encoded picture in greys; None for what is none, or larger than any camera's."""
     cv2 = opencv("camera")
-    if not data:
+    if not 0 < _pixels(data) <= MOST_PIXELS:
         return None
     try:
         return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)

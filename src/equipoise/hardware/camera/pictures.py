@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from equipoise.hardware.camera.aruco import Picture, decoded, opencv
+from equipoise.hardware.camera.aruco import MOST_PIXELS, Picture, decoded, opencv
 from equipoise.model.errors import InputError
 
+LARGEST = 400_000_000  # bytes of a picture (chosen: four for each pixel)
 SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm")
 
 
@@ -25,20 +26,29 @@ def pictures_of(source: Path, rate: float | None) -> Iterator[Taken]:
 
     InputError for what is neither, and for a folder without a rate.
     """
-    if not source.exists():
+    if not (source.is_file() or source.is_dir()):
         raise InputError(str(source), "no such file", "a video, a folder of pictures, or a camera")
     return _of_folder(source, rate) if source.is_dir() else _of_video(source, rate)
 
 
 def picture_at(path: Path) -> Picture:
     """Return the picture in a file."""
+    picture = decoded(_bytes_of(path))
+    if picture is None:
+        wanted = f"one of {', '.join(SUFFIXES)}, of {MOST_PIXELS / 1e6:g} million pixels at most"
+        raise InputError(str(path), "no picture", wanted)
+    return picture
+
+
+def _bytes_of(path: Path) -> bytes:
+    """Return the bytes of a regular file; a picture of more is none of a camera."""
+    if not path.is_file():
+        raise InputError(str(path), "no file", "a picture")
     try:
-        picture = decoded(path.read_bytes())
+        with path.open("rb") as file:
+            return file.read(LARGEST)
     except OSError as error:
         raise InputError(str(path), error.strerror or str(error), "a picture") from error
-    if picture is None:
-        raise InputError(str(path), "no picture", "one of " + ", ".join(SUFFIXES))
-    return picture
 
 
 def _of_folder(folder: Path, rate: float | None) -> Iterator[Taken]:
@@ -58,6 +68,10 @@ def _of_video(path: Path, rate: float | None) -> Iterator[Taken]:
     try:
         if not video.isOpened():
             raise InputError(str(path), "no video that can be read", "a video file")
+        size = video.get(cv2.CAP_PROP_FRAME_WIDTH) * video.get(cv2.CAP_PROP_FRAME_HEIGHT)
+        if size > MOST_PIXELS:
+            wanted = f"at most {MOST_PIXELS / 1e6:g} million"
+            raise InputError(str(path), f"pictures of {size / 1e6:g} million pixels", wanted)
         count = max(float(video.get(cv2.CAP_PROP_FRAME_COUNT)), 1.0)
         reported = float(video.get(cv2.CAP_PROP_FPS))
         if rate is None and not reported > 0:
