@@ -89,7 +89,7 @@ def read_dataflash(content: Content, source: str, options: ReadOptions) -> tuple
     log = messages_of(content)
     damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
     channels, notes = chosen(list(_sources(log)), source, options, BEST)
-    return log_table(source, channels, None, (*damaged, *notes)), flight_map(channels)
+    return log_table(content.meter, channels, None, (*damaged, *notes)), flight_map(channels)
 
 
 def messages_of(content: Content) -> Messages:

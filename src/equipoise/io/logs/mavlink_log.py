@@ -90,7 +90,7 @@ def read_tlog(content: Content, source: str, options: ReadOptions) -> tuple[Tabl
     )
     channels, notes = chosen(sources, source, options, BEST)
     notes = (*(text for count, text in notices if count), *notes)
-    return log_table(source, channels, None, notes), flight_map(channels)
+    return log_table(content.meter, channels, None, notes), flight_map(channels)
 
 
 def telemetry_of(content: Content, source: str) -> Telemetry:

@@ -50,7 +50,7 @@ def _sources(path: Path) -> list[Source]:
     types: Any = log_library("rosbags.typesys", str(path))
     # Bags of ROS 2 before Iron do not say what their types are; ours have been the same since.
     store = types.get_typestore(types.Stores.ROS2_HUMBLE)
-    topics = Topics()
+    topics = Topics(meter)
     with highlevel.AnyReader([path], default_typestore=store) as reader:
         for each in reader.connections:
             topics.declare(each.topic, each.msgtype, each.msgcount)

@@ -86,7 +86,7 @@ def read_ulog(content: Content, source: str, options: ReadOptions) -> tuple[Tabl
     log = ulog_topics(content)
     damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
     channels, notes = chosen(list(_sources(log)), source, options, BEST)
-    table = log_table(source, channels, None, (*damaged, *notes))
+    table = log_table(content.meter, channels, None, (*damaged, *notes))
     return table, flight_map(channels)
 
 

@@ -112,7 +112,7 @@ def read_vectornav(content: Content, source: str, options: ReadOptions) -> tuple
     ]
     channels, notes = chosen(found, source, options, BEST)
     axes = "Axes: ahead, left, up of the sensor, whose own y and z point the other way."
-    return log_table(source, channels, None, (*left, *notes, axes)), flight_map(channels)
+    return log_table(content.meter, channels, None, (*left, *notes, axes)), flight_map(channels)
 
 
 def _check_timed(lines: Lines, source: str) -> None:
