@@ -7,6 +7,7 @@ from equipoise.io.logs.log_sources import Source
 from equipoise.io.logs.log_topics import Sample, Topics
 from equipoise.io.logs.ros_messages import is_known
 from equipoise.io.logs.ros_types import DECODED, Decoder, ros_decoder
+from equipoise.io.logs.zstd_frames import unframed
 from equipoise.io.mcap.foxglove_messages import ROTATION, Turned, turned, turned_json
 from equipoise.io.mcap.mcap_salvage import Salvage
 
@@ -27,8 +28,8 @@ def foreign_sources(found: Salvage, source: str) -> list[Source]:
     return topics.sources()
 
 
-def add_foreign(found: Salvage, source: str, topics: Topics) -> None:
-    """Add every topic of a file, with the rows of known types."""
+def add_foreign(found: Salvage, source: str, topics: Topics, packed: bool = False) -> None:
+    """Add every topic of a file, with the rows of known types; ``packed``: each message is."""
     decoders: dict[int, tuple[str, str, Decoder]] = {}
     for number, channel in found.channels.items():
         schema = found.schemas.get(channel.schema_id)
@@ -39,9 +40,10 @@ def add_foreign(found: Salvage, source: str, topics: Topics) -> None:
             decoders[number] = channel.topic, kind, decoder
     for message in found.messages:
         if message.channel_id in decoders:
-            found.meter.check(DECODED * len(message.data))
             name, kind, decoder = decoders[message.channel_id]
-            topics.add(name, kind, message.log_time, _decoded(decoder, message.data))
+            data = unframed(message.data, found.meter) if packed else message.data
+            found.meter.check(DECODED * len(data))
+            topics.add(name, kind, message.log_time, _decoded(decoder, data))
 
 
 def _decoded(decoder: Decoder, data: bytes) -> Sequence[Sample]:
