@@ -70,7 +70,7 @@ def _reader(content: Content) -> Any:
         def read_chunk(self) -> Any:
             """Return where a chunk is, and how it is unpacked."""
             begin = self.bio.tell()
-            chunk = super().read_chunk()
+            chunk: Any = super().read_chunk()
             end = self.bio.tell()
             self.bio.seek(begin)
             header = library.Header.read(self.bio)
@@ -79,7 +79,11 @@ def _reader(content: Content) -> Any:
             size = header.get_uint32("size")
             if unpacker is None:
                 return chunk
-            return chunk._replace(decompressor=lambda data: _unpacked(data, size, unpacker, meter))
+
+            def unpack(data: bytes) -> bytes:
+                return _unpacked(data, size, unpacker, meter)
+
+            return chunk._replace(decompressor=unpack)
 
         def read_index_data(self, pos: int, indexes: Any) -> None:
             """Read where messages of a chunk are."""

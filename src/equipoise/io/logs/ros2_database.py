@@ -46,9 +46,13 @@ def _connected(path: Path, meter: Meter) -> sqlite3.Connection:
     database = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
     database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, max(min(meter.left, LONGEST), 1))
     database.set_progress_handler(lambda: _is_over(meter), STEPS)
-    database.text_factory = lambda data: data.decode(errors="replace")
+    database.text_factory = _text
     database.execute("PRAGMA trusted_schema = OFF")
     return database
+
+
+def _text(data: bytes) -> str:
+    return data.decode(errors="replace")
 
 
 def _is_over(meter: Meter) -> bool:
@@ -84,9 +88,7 @@ def _known(database: sqlite3.Connection, topics: Topics) -> Known:
     return known
 
 
-def _rows(
-    database: sqlite3.Connection, kinds: list[str]
-) -> Iterator[tuple[int, int, bytes]]:
+def _rows(database: sqlite3.Connection, kinds: list[str]) -> Iterator[tuple[int, int, bytes]]:
     """Yield topic, time (ns) and content of messages of some types."""
     places = ",".join("?" * len(kinds))
     for number, logged, data in database.execute(ROWS.format(places), kinds):

@@ -44,7 +44,7 @@ class Message(NamedTuple):
 class MessageIndex(NamedTuple):
     """How many messages of a channel a chunk holds, as the file says."""
 
-    count: int
+    messages: int
 
 
 class Packed(NamedTuple):
@@ -60,8 +60,9 @@ def message_in(data: bytes | memoryview, start: int, stop: int) -> Message:
     """Return the message whose content stands between two places; EOFError if there is none."""
     if stop - start < MESSAGE.size:
         raise EOFError
-    head = MESSAGE.unpack_from(data, start)
-    return Message(*head, bytes(data[start + MESSAGE.size : stop]))
+    channel, sequence, logged, published = MESSAGE.unpack_from(data, start)
+    data = bytes(data[start + MESSAGE.size : stop])
+    return Message(channel, sequence, logged, published, data)
 
 
 def chunk_in(body: bytes) -> Packed:

@@ -10,7 +10,6 @@ from equipoise.io.formats.clock_units import PER_S
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.mcap.mcap_recording import time_zero
-from equipoise.io.mcap.mcap_records import Message
 from equipoise.io.mcap.mcap_salvage import Salvage, nothing, salvaged
 from equipoise.io.mcap.mcap_walk import Walk
 from equipoise.model.errors import InputError
@@ -65,12 +64,15 @@ def _write(file: BinaryIO, found: Salvage, walk: Walk) -> None:
         writer.add_metadata(each.name, each.metadata)
     channels = _registered(writer, found)
     for each in walk.records():
-        if isinstance(each, Message) and each.channel_id in channels:
-            number = channels[each.channel_id]
-            writer.add_message(number, each.log_time, each.data, each.publish_time, each.sequence)
-        elif type(each).__name__ == "Attachment":
-            times = each.create_time, each.log_time
-            writer.add_attachment(*times, each.name, each.media_type, each.data)
+        match type(each).__name__:
+            case "Message" if each.channel_id in channels:
+                times = each.log_time, each.data, each.publish_time
+                writer.add_message(channels[each.channel_id], *times, each.sequence)
+            case "Attachment":
+                times = each.create_time, each.log_time
+                writer.add_attachment(*times, each.name, each.media_type, each.data)
+            case _:
+                pass
     writer.finish()
 
 

@@ -150,7 +150,7 @@ class Salvage:
             case "ChunkIndex":
                 self.findable = True
             case "MessageIndex":
-                self.indexed += record.count
+                self.indexed += record.messages
             case "Statistics":
                 self.stated = record.message_count
             case "Header":

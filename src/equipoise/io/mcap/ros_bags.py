@@ -6,7 +6,7 @@ the size of all its files.
 """
 
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
@@ -59,7 +59,7 @@ def _size(path: Path) -> int:
 
 
 @contextmanager
-def _on_disk(path: Path, content: Content) -> Iterator[Path]:
+def _on_disk(path: Path, content: Content) -> Generator[Path]:
     """Lend the path of a file that SQLite can open: its own, unless it was packed in another."""
     if not isinstance(content.file, BytesIO):
         yield path
