@@ -110,11 +110,11 @@ def _best(
         found = [each for each in candidates if each.kind == kind and each.gives(channel)]
         names = sorted({each.name for each in found})
         if len(names) > 1:
-            rows = ", ".join(
-                _cut([f"{s.name} ({s.count} rows)" for s in sorted(found, key=_by_name)])
-            )
+            listed = [f"{s.name} ({s.count} rows)" for s in sorted(found, key=_by_name)]
             wanted = f"one, the platform's: --topic NAME, such as --topic {names[0]}"
-            raise InputError(file, f"{len(names)} topics of {kind}: {rows}", wanted)
+            raise InputError(
+                file, f"{len(names)} topics of {kind}: {', '.join(_cut(listed))}", wanted
+            )
         if found:
             return _instance(found, file, options)
     return None

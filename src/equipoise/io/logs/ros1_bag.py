@@ -9,12 +9,12 @@ from bz2 import BZ2Decompressor
 from typing import Any
 
 from equipoise.io.files.file_content import Content
-from equipoise.io.files.reading_budget import Meter
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.logs.counted_file import CountedFile
 from equipoise.io.logs.log_topics import Topics
 from equipoise.io.logs.ros_messages import is_known
 from equipoise.io.logs.ros_types import DECODED, digest_of, ros_decoder
+from equipoise.io.logs.unpacking_work import Work
 
 ENTRY = 200  # bytes of an entry of an index as an object (chosen: measured are 180)
 HEADER, PLACE = 55, 12  # bytes of an index's header, at whose end is a size, and of an entry
@@ -62,7 +62,7 @@ class _Place:
 
 def _reader(content: Content) -> Any:
     library: Any = log_library("rosbags.rosbag1.reader", content.meter.source)
-    meter = content.meter
+    work = Work(content.meter, len(content))
 
     class Counted(library.Reader):
         """A reader that counts what it takes."""
@@ -70,18 +70,18 @@ def _reader(content: Content) -> Any:
         def read_chunk(self) -> Any:
             """Return where a chunk is, and how it is unpacked."""
             begin = self.bio.tell()
-            chunk: Any = super().read_chunk()
+            chunk: Any = library.Reader.read_chunk(self)
             end = self.bio.tell()
             self.bio.seek(begin)
             header = library.Header.read(self.bio)
             self.bio.seek(end)
-            unpacker = _unpacker(header.get_string("compression"), meter)
+            unpacker = _unpacker(header.get_string("compression"), work)
             size = header.get_uint32("size")
             if unpacker is None:
                 return chunk
 
             def unpack(data: bytes) -> bytes:
-                return _unpacked(data, size, unpacker, meter)
+                return _unpacked(data, size, unpacker, work)
 
             return chunk._replace(decompressor=unpack)
 
@@ -89,27 +89,28 @@ def _reader(content: Content) -> Any:
             """Read where messages of a chunk are."""
             begin = self.bio.tell()
             (size,) = struct.unpack("<I", self.bio.read(HEADER)[-4:])
-            meter.take(ENTRY * (size // PLACE))
+            work.meter.take(ENTRY * (size // PLACE))
             self.bio.seek(begin)
-            super().read_index_data(pos, indexes)
+            library.Reader.read_index_data(self, pos, indexes)
 
     return Counted(_Place(content))
 
 
-def _unpacker(compression: str, meter: Meter) -> Any:
+def _unpacker(compression: str, work: Work) -> Any:
     """Return what unpacks a chunk; None where nothing is packed."""
     match compression:
         case "bz2":
             return BZ2Decompressor
         case "lz4":
-            return log_library("lz4.frame", meter.source).LZ4FrameDecompressor
+            return log_library("lz4.frame", work.meter.source).LZ4FrameDecompressor
         case _:
             return None
 
 
-def _unpacked(data: bytes, size: int, unpacker: Any, meter: Meter) -> bytes:
+def _unpacked(data: bytes, size: int, unpacker: Any, work: Work) -> bytes:
     """Return what a chunk unpacks to; ValueError if it is cut, or more than it says."""
-    meter.check(size)
+    work.meter.check(size)
+    work.add(size)
     unpacking = unpacker()
     found = unpacking.decompress(data, max_length=size + 1)
     if len(found) > size or not unpacking.eof:

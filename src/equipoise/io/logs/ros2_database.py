@@ -14,6 +14,7 @@ from equipoise.io.files.reading_budget import Meter
 from equipoise.io.logs.log_topics import PART, Topics
 from equipoise.io.logs.ros_messages import is_known
 from equipoise.io.logs.ros_types import DECODED, ros_decoder
+from equipoise.io.logs.unpacking_work import Work
 from equipoise.io.logs.zstd_frames import unframed
 from equipoise.model.errors import InputError
 
@@ -28,10 +29,11 @@ ROWS = """SELECT topic_id, timestamp, data FROM messages
 Known = dict[int, tuple[str, str]]  # name and type of a topic, by its number
 
 
-def add_database(path: Path, topics: Topics, packed: bool = False) -> None:
+def add_database(path: Path, topics: Topics, packed: Work | None = None) -> None:
     """Add every topic of a database, those of known types with their rows.
 
-    ``packed``: each message is. InputError if it is too much, else raises if it is broken.
+    ``packed``: each message is, and what unpacking them may take. InputError if all of it is too
+    much, else raises if it is broken.
     """
     meter = topics.meter
     with closing(_connected(path, meter)) as database:
@@ -63,7 +65,7 @@ def _is_over(meter: Meter) -> bool:
     return False
 
 
-def _add(database: sqlite3.Connection, topics: Topics, packed: bool) -> None:
+def _add(database: sqlite3.Connection, topics: Topics, packed: Work | None) -> None:
     if database.execute(TABLES).fetchone() != (2,):
         raise ValueError("no tables of topics and messages")
     meter, known = topics.meter, _known(database, topics)
@@ -72,7 +74,7 @@ def _add(database: sqlite3.Connection, topics: Topics, packed: bool) -> None:
     for number, logged, raw in _rows(database, kinds):
         if number in known:
             name, kind = known[number]
-            data = unframed(raw, meter) if packed else raw
+            data = unframed(raw, packed) if packed else raw
             meter.check(DECODED * len(data))
             topics.add(name, kind, logged, decoders[kind](data))
 

@@ -5,36 +5,38 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.files.file_content import Content
-from equipoise.io.files.reading_budget import RATIO, Meter
 from equipoise.io.formats.optional_libraries import log_library
+from equipoise.io.logs.unpacking_work import Work
 
 PIECE = 1 << 22  # bytes that are unpacked at once (chosen)
 WIDEST = 1 << 27  # bytes of a window, Zstandard's own limit
 
 
-def unframed(data: bytes | memoryview, meter: Meter, stated: int | None = None) -> bytes:
+def unframed(data: bytes | memoryview, work: Work, stated: int | None = None) -> bytes:
     """Return what a frame unpacks to; InputError if it is too much, else raises if it is broken.
 
     ``stated``: its size, as what is around it has it. Where the frame says another, memory is taken
     for what comes out and not for what is said.
     """
-    library = log_library("zstandard", meter.source)
+    library = log_library("zstandard", work.meter.source)
     unpacker = library.ZstdDecompressor(max_window_size=WIDEST)
     size: int = library.frame_content_size(data)
     if size >= 0 and stated in (None, size):
-        meter.check(size)
+        work.meter.check(size)
+        work.add(size)
         return unpacker.decompress(data)
     with unpacker.stream_reader(data) as stream:
-        return joined(iter(lambda: stream.read(PIECE), b""), meter)
+        return joined(iter(lambda: stream.read(PIECE), b""), work)
 
 
-def joined(pieces: Iterator[bytes], meter: Meter) -> bytes:
+def joined(pieces: Iterator[bytes], work: Work) -> bytes:
     """Return pieces as one; InputError as soon as they are too much."""
     found: list[bytes] = []
     size = 0
     for piece in pieces:
         size += len(piece)
-        meter.check(2 * size if found else size)  # here, and as one in the end
+        work.add(len(piece))
+        work.meter.check(2 * size if found else size)  # here, and as one in the end
         found.append(piece)
     return b"".join(found) if len(found) != 1 else found[0]
 
@@ -42,10 +44,10 @@ def joined(pieces: Iterator[bytes], meter: Meter) -> bytes:
 def unframe_file(content: Content, out: Path) -> None:
     """Write what a file unpacks to; InputError if it is too much for a file of its size."""
     library: Any = log_library("zstandard", content.meter.source)
-    most, size = max(RATIO * len(content), content.meter.left), 0
+    work = Work(content.meter, len(content))
     unpacker = library.ZstdDecompressor(max_window_size=WIDEST)
     with unpacker.stream_reader(content.from_start()) as stream, out.open("wb") as file:
         while piece := stream.read(PIECE):
-            size += len(piece)
-            content.meter.check(size if size > most else 0)
+            content.meter.check(0)
+            work.add(len(piece))
             file.write(piece)

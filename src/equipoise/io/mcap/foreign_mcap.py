@@ -7,6 +7,7 @@ from equipoise.io.logs.log_sources import Source
 from equipoise.io.logs.log_topics import Sample, Topics
 from equipoise.io.logs.ros_messages import is_known
 from equipoise.io.logs.ros_types import DECODED, Decoder, ros_decoder
+from equipoise.io.logs.unpacking_work import Work
 from equipoise.io.logs.zstd_frames import unframed
 from equipoise.io.mcap.foxglove_messages import ROTATION, Turned, turned, turned_json
 from equipoise.io.mcap.mcap_salvage import Salvage
@@ -28,8 +29,11 @@ def foreign_sources(found: Salvage, source: str) -> list[Source]:
     return topics.sources()
 
 
-def add_foreign(found: Salvage, source: str, topics: Topics, packed: bool = False) -> None:
-    """Add every topic of a file, with the rows of known types; ``packed``: each message is."""
+def add_foreign(found: Salvage, source: str, topics: Topics, packed: Work | None = None) -> None:
+    """Add every topic of a file, with the rows of known types.
+
+    ``packed``: each message is, and what unpacking them may take.
+    """
     decoders: dict[int, tuple[str, str, Decoder]] = {}
     for number, channel in found.channels.items():
         schema = found.schemas.get(channel.schema_id)
@@ -41,7 +45,7 @@ def add_foreign(found: Salvage, source: str, topics: Topics, packed: bool = Fals
     for message in found.messages:
         if message.channel_id in decoders:
             name, kind, decoder = decoders[message.channel_id]
-            data = unframed(message.data, found.meter) if packed else message.data
+            data = unframed(message.data, packed) if packed else message.data
             found.meter.check(DECODED * len(data))
             topics.add(name, kind, message.log_time, _decoded(decoder, data))
 

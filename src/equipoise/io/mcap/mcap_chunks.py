@@ -10,19 +10,21 @@ from typing import Any
 
 from equipoise.io.files.reading_budget import Meter
 from equipoise.io.formats.optional_libraries import log_library
+from equipoise.io.logs.unpacking_work import Work
 from equipoise.io.logs.zstd_frames import PIECE, joined, unframed
 from equipoise.io.mcap.mcap_records import Packed
 
 
-def unpacked(chunk: Packed, meter: Meter) -> bytes | memoryview:
+def unpacked(chunk: Packed, work: Work) -> bytes | memoryview:
     """Return a chunk's records; InputError if they are too much, else raises if it is broken."""
     match chunk.compression:
         case "":
             data: bytes | memoryview = chunk.data
+            work.add(len(data))
         case "zstd":
-            data = unframed(chunk.data, meter, chunk.size)
+            data = unframed(chunk.data, work, chunk.size)
         case "lz4":
-            data = joined(_of_lz4(chunk, meter), meter)
+            data = joined(_of_lz4(chunk, work.meter), work)
         case _:
             raise ValueError("compression")
     if chunk.crc and zlib.crc32(data) != chunk.crc:

@@ -11,8 +11,8 @@ from itertools import chain
 from typing import Any
 
 from equipoise.io.files.file_content import BLOCK, Content
-from equipoise.io.files.reading_budget import MB, RATIO, in_mb
 from equipoise.io.formats.optional_libraries import log_library
+from equipoise.io.logs.unpacking_work import Work
 from equipoise.io.mcap.mcap_chunks import unpacked
 from equipoise.io.mcap.mcap_records import (
     CHUNK_HEAD,
@@ -29,7 +29,7 @@ from equipoise.io.mcap.mcap_records import (
     message_in,
     record_in,
 )
-from equipoise.model.errors import EquipoiseError, InputError
+from equipoise.model.errors import EquipoiseError
 
 IN_CHUNKS = {CODES[kind]: kind for kind in ("Schema", "Channel")}  # beside messages
 LONE = frozenset({"Message", None})  # kinds that nothing but what follows them makes sure
@@ -42,8 +42,7 @@ class Walk:
     def __init__(self, content: Content, source: str) -> None:
         self._content, self._source, self._meter = content, source, content.meter
         self._library = log_library("mcap.records", source)
-        self._most = max(RATIO * len(content), self._meter.left)
-        self._worked = 0  # bytes that were unpacked, or tried in vain
+        self._work = Work(content.meter, len(content))
         self.lost_bytes = self.lost_places = 0
 
     def records(self) -> Iterator[Any]:
@@ -85,9 +84,9 @@ class Walk:
         opcode, length = HEADING.unpack(self._peeked(at))
         stop = at + HEAD + length
         if stop > self._size or not self._may_be(opcode, at, stop):
-            self._work(HEAD)
+            self._work.add(HEAD)
             return False
-        self._work(HEAD + length)
+        self._work.add(HEAD + length)
         return self._record(at)[0] is not None
 
     def _may_be(self, opcode: int, at: int, stop: int) -> bool:
@@ -133,9 +132,7 @@ class Walk:
         if kind == "Message":  # it has no length of its own
             return (message_in(body, 0, len(body)),), False
         if kind == "Chunk":
-            records = unpacked(chunk_in(body), self._meter)
-            self._work(len(records))
-            return self._inside(records), True
+            return self._inside(unpacked(chunk_in(body), self._work)), True
         record, exact = self._parsed(kind, body)
         return (record,), exact
 
@@ -158,16 +155,6 @@ class Walk:
         if kind not in ("Attachment", "Schema"):
             self._meter.check(PARSED * len(body))
         return record_in(kind, body, self._library)
-
-    def _work(self, count: int) -> None:
-        self._worked += count
-        if self._worked > self._most:
-            found = f"more than {in_mb(self._most)} unpacked, or tried in vain"
-            wanted = "a whole recording; if this is one, --max-memory-mb "
-            size = f" (the file has {in_mb(self._size)})"
-            raise InputError(
-                self._source, found + size, f"{wanted}{2 * self._most // MB} lets it take more"
-            )
 
 
 def _message(data: bytes | memoryview, start: int) -> Any:

@@ -24,6 +24,7 @@ from equipoise.io.logs.log_table import log_map, log_table
 from equipoise.io.logs.log_topics import BEST, Topics
 from equipoise.io.logs.ros1_bag import add_ros1
 from equipoise.io.logs.ros2_database import add_database
+from equipoise.io.logs.unpacking_work import Work
 from equipoise.io.logs.zstd_frames import unframe_file
 from equipoise.io.mcap.foreign_mcap import add_foreign, is_foreign
 from equipoise.io.mcap.mcap_recording import loss_notes
@@ -82,8 +83,9 @@ def _add_file(path: Path, files: BagFiles, topics: Topics) -> tuple[str, ...]:
 
 
 def _add_storage(path: Path, files: BagFiles, topics: Topics) -> tuple[str, ...]:
-    packed = files.packed == "message"
     with open_bytes(path, WANTED) as file:
+        work = Work(topics.meter, size_of(file))
+        packed = work if files.packed == "message" else None
         if files.storage == "sqlite3":
             add_database(path, topics, packed)
             return ()
