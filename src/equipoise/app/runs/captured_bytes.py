@@ -29,7 +29,7 @@ OnProgress = Callable[[float], None]
 PORTS = {"natnet": (1510, 1511), "mavlink": (14550,)}  # UDP, as they are by default
 LINES = ("vectornav", "lines")  # whose rows end where a line does
 DATAGRAMS, NAMED = "udp:0", "udpout:file:0"  # how a driver is to read pieces
-ROW = 400  # bytes of a row, here and in the recording (chosen: measured are 300)
+ROW = 200  # bytes of a row, here and in the recording (chosen: measured are 130)
 SHOWN = 60  # bytes, chosen: of what comes first, where nothing is understood
 WANTED = "bytes of a sensor, as they were saved"
 

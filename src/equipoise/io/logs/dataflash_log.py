@@ -55,7 +55,7 @@ KNOWN = frozenset(kind for kinds in BEST.values() for kind in kinds)
 NUMBERED = frozenset({"XKQ", "NKQ", "IMU", "GYR", "ACC"})
 INSTANCE = {"XKQ": "C", "NKQ": "C", "IMU": "I", "GYR": "I", "ACC": "I"}
 COUNTS = ("b", "B")  # letters of an instance's number
-ROW = 400  # bytes of a row, here and in the tables made of it (chosen: measured are 300)
+ROW = 150  # bytes of a row, here and in the tables made of it (chosen: measured are 90)
 QUATERNION, ANGLES = ("Q1", "Q2", "Q3", "Q4"), ("Roll", "Pitch", "Yaw")
 RATE, ACCELERATION = ("GyrX", "GyrY", "GyrZ"), ("AccX", "AccY", "AccZ")
 

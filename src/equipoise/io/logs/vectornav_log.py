@@ -41,7 +41,7 @@ BEST = {"attitude": ("VNQMR", "VNQTN", "VNYMR", "VNYPR"), "rate": ("VNQMR", "VNY
 QUATERNIONS = frozenset({"VNQMR", "VNQTN"})
 DAY = 86_400.0  # s
 LONGEST = 4096  # bytes of a line (chosen: thirty times what a message has)
-ROW = 800  # bytes of a row, here and in the tables made of it (chosen: measured are 600)
+ROW = 750  # bytes of a row, here and in the tables made of it (chosen: measured are 680)
 AXES = "Axes: ahead, left, up of the sensor, whose own y and z point the other way."
 MOST_BACK = 0.5  # share of the rows that may be behind the one before (chosen)
 
