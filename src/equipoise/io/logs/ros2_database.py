@@ -36,7 +36,7 @@ def add_database(path: Path, topics: Topics, packed: Work | None = None) -> None
     much, else raises if it is broken.
     """
     meter = topics.meter
-    with closing(_connected(path, meter)) as database:
+    with closing(connected(path, meter)) as database:
         try:
             _add(database, topics, packed)
         except sqlite3.Error:
@@ -44,7 +44,8 @@ def add_database(path: Path, topics: Topics, packed: Work | None = None) -> None
             raise
 
 
-def _connected(path: Path, meter: Meter) -> sqlite3.Connection:
+def connected(path: Path, meter: Meter) -> sqlite3.Connection:
+    """Return a database that is only read, whose values fit and whose queries end in time."""
     database = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
     database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, max(min(meter.left, LONGEST), 1))
     database.set_progress_handler(lambda: _is_over(meter), STEPS)
