@@ -59,6 +59,24 @@ def repeated(data: bytes, times: int) -> bytes:
     return b"".join((*out, packer.flush()))
 
 
+def named_pairs(name: str, **pairs: str) -> bytes:
+    """Metadata."""
+    named = b"".join(text(key) + text(value) for key, value in pairs.items())
+    return record(12, text(name) + struct.pack("<I", len(named)) + named)
+
+
+def pose(k: int) -> bytes:
+    """The k-th attitude of a topic in JSON."""
+    turn = {"w": 1.0, "x": 0.0, "y": 0.0, "z": 0.0}
+    stamp = {"sec": k // 100, "nsec": k % 100 * 10_000_000}
+    return json.dumps({"timestamp": stamp, "pose": {"orientation": turn}}).encode()
+
+
+def poses(count: int) -> bytes:
+    """A whole file of attitudes without chunks."""
+    return mcap(POSE, *(logged(1, k, pose(k)) for k in range(count)))
+
+
 POSE = channel(1, "/pose", "foxglove.PoseInFrame", "json")
 
 
@@ -231,13 +249,13 @@ def cdr_of_a_long_tree() -> bytes:
 
 
 def tree_of(data: bytes) -> bytes:
-    """An MCAP file of a tree of frames, beside a message that is sound."""
-    sound = ROS1.serialize_ros1(message(ROS1, IMU, 1), IMU)
+    """An MCAP file of a tree of frames, beside messages that are sound."""
+    sound = [ROS1.serialize_ros1(message(ROS1, IMU, k), IMU) for k in range(4)]
     return mcap(
         channel(1, "/tf", TREE, "cdr"),
         channel(2, "/imu", IMU, "ros1"),
         logged(1, 1, data),
-        logged(2, 2, bytes(sound)),
+        *(logged(2, 2, bytes(each)) for each in sound),
     )
 
 

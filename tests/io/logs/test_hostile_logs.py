@@ -1,4 +1,4 @@
-"""Logs of a few kilobytes that stand for gigabytes, or for ever: refused, or read for what they are."""
+"""Logs of a few kilobytes that stand for gigabytes, or for ever: refused in a sentence."""
 
 import functools
 import sqlite3
@@ -124,10 +124,9 @@ def test_a_type_of_ros_1_that_only_has_a_known_name_is_left_aside(tmp_path):
 
 def test_frames_without_number_are_counted():
     """Each child frame of a tree is a source, with arrays of its own."""
-    topics = Topics(Budget().of("log", 0))
+    topics, samples = Topics(Budget().of("log", 0)), [Sample(1, {}, part=str(k)) for k in range(MB)]
     with pytest.raises(InputError, match=REMEDY):
-        for k in range(200_000):
-            topics.add("/tf", "tf2_msgs/msg/TFMessage", 1, [Sample(1, {}, part=str(k))])
+        topics.add("/tf", "tf2_msgs/msg/TFMessage", 1, samples)
 
 
 # --- Flight controllers ------------------------------------------------------------------------

@@ -33,6 +33,7 @@ from equipoise.model.errors import EquipoiseError
 
 IN_CHUNKS = {CODES[kind]: kind for kind in ("Schema", "Channel")}  # beside messages
 LONE = frozenset({"Message", None})  # kinds that nothing but what follows them makes sure
+NEAR = 4096  # bytes that are searched first: most often a record is near (chosen)
 Found = tuple[Iterable[Any] | None, int]  # records, None: there is none; where they end
 
 
@@ -73,11 +74,13 @@ class Walk:
 
     def _places(self, at: int) -> Iterator[int]:
         """Yield the places from one on at which a record may begin."""
+        step = NEAR
         while at + HEAD <= self._size:
-            block = self._content[at : at + BLOCK]
+            block = self._content[at : at + step]
             for place in PLACE.finditer(block):
                 yield at + place.start()
-            at += BLOCK - HEAD + 1
+            at += step - HEAD + 1
+            step = min(2 * step, BLOCK)
 
     def _is_record(self, at: int) -> bool:
         self._meter.check(0)
