@@ -12,7 +12,7 @@ from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import MB, Budget, Meter
 from equipoise.io.logs.dataflash_log import messages_of
 from equipoise.io.logs.log_topics import Sample, Topics
-from equipoise.io.logs.ros2_database import connected
+from equipoise.io.logs.ros.ros2_database import connected
 from equipoise.io.logs.ulog_layout import MOST, flat_layout
 from equipoise.io.logs.vectornav_log import LONGEST, Lines, lines_of
 from equipoise.io.recording.recording_file import read_recording

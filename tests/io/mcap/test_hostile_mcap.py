@@ -105,7 +105,7 @@ def test_a_garbled_file_is_read_in_few_goes():
     assert (found.count, found.lost_places) == (20_000 - 2000 - 1999, 2000)
 
 
-def test_places_that_look_like_records_and_are_none_are_counted():
+def test_places_that_seem_to_be_records_are_counted():
     """Each of them says that it is as long as a block, and none is."""
     places = (b"\x03\xf0\xff\x0f" + bytes(5) + b"\xff" * 91) * 10_000
     content = Content.of(b"\x89MCAP0\r\n" + b"\xff" + places + bytes(1_100_000), "log")

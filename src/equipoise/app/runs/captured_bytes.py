@@ -6,6 +6,7 @@ The driver is the one of the bench, and so is what times and turns its rows.
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from os import SEEK_CUR
 
 from equipoise.app.runs.captured_sensor import STREAM
 from equipoise.hardware.links.captured_rows import CapturedRows, Timeless
@@ -106,12 +107,12 @@ def recording_of_capture(
 ) -> Recording:
     """Return the rows in a file of saved bytes, with notes of what was broken or left out."""
     with opened(file, WANTED, budget) as content, as_broken(file, "capture", WANTED):
-        beginning, source = content[:CHUNK], CountedFile(content)
+        beginning, stream = content[:CHUNK], CountedFile(content)
         port = _port(unit, is_pcap(beginning))
         capture, shown = Capture(content.meter, replace(unit, port=port), rate), 0
-        for piece in _pieces(source, beginning, unit):
+        for piece in _pieces(stream, beginning, unit):
             capture.take(piece)
-            at = source.tell()
+            at = stream.seek(0, SEEK_CUR)
             if at - shown > CHUNK:
                 shown = at
                 reported(at / len(content))

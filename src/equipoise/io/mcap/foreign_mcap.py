@@ -5,8 +5,8 @@ from typing import Any
 
 from equipoise.io.logs.log_sources import Source
 from equipoise.io.logs.log_topics import Sample, Topics
-from equipoise.io.logs.ros_messages import is_known
-from equipoise.io.logs.ros_types import DECODED, Decoder, ros_decoder
+from equipoise.io.logs.ros.ros_messages import is_known
+from equipoise.io.logs.ros.ros_types import DECODED, Decoder, ros_decoder
 from equipoise.io.logs.unpacking_work import Work
 from equipoise.io.logs.zstd_frames import unframed
 from equipoise.io.mcap.foxglove_messages import ROTATION, Turned, turned, turned_json

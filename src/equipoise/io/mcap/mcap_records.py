@@ -96,9 +96,9 @@ def record_in(kind: str, body: bytes, library: Any) -> tuple[Any, bool]:
         return MessageIndex(size // 16), size + 6 == len(body)
     if kind == "Attachment" and zlib.crc32(memoryview(body)[:-4]) != _last(body):
         raise ValueError("checksum")
-    stream = _Strict(body)
-    record = getattr(library, kind).read(library.ReadDataStream(stream))
-    return record, stream.tell() == len(body)
+    stream = library.ReadDataStream(_Strict(body))
+    record = getattr(library, kind).read(stream)
+    return record, stream.count == len(body)
 
 
 def _last(body: bytes) -> int:

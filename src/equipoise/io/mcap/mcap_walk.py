@@ -32,7 +32,7 @@ from equipoise.io.mcap.mcap_records import (
 from equipoise.model.errors import EquipoiseError
 
 IN_CHUNKS = {CODES[kind]: kind for kind in ("Schema", "Channel")}  # beside messages
-LONE = frozenset({"Message", None})  # kinds that nothing but what follows them makes sure
+UNSURE = frozenset({"Message", None})  # kinds that nothing but what follows them makes sure
 NEAR = 4096  # bytes that are searched first: most often a record is near (chosen)
 Found = tuple[Iterable[Any] | None, int]  # records, None: there is none; where they end
 
@@ -94,7 +94,7 @@ class Walk:
 
     def _may_be(self, opcode: int, at: int, stop: int) -> bool:
         """Say whether it is worth a try to read a record that is sought."""
-        sure = KINDS.get(opcode) not in LONE and stop - at <= BLOCK
+        sure = KINDS.get(opcode) not in UNSURE and stop - at <= BLOCK
         return sure or self._is_long(opcode, at, stop)
 
     def _is_long(self, opcode: int, at: int, stop: int) -> bool:

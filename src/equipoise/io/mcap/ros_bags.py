@@ -17,13 +17,13 @@ from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import Budget
 from equipoise.io.files.source_file import open_bytes, size_of
-from equipoise.io.logs.bag_metadata import FOLDER_MARK, BagFiles, bag_files
 from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.log_sources import chosen
 from equipoise.io.logs.log_table import log_map, log_table
 from equipoise.io.logs.log_topics import BEST, Topics
-from equipoise.io.logs.ros1_bag import add_ros1
-from equipoise.io.logs.ros2_database import add_database
+from equipoise.io.logs.ros.bag_metadata import FOLDER_MARK, BagFiles, bag_files
+from equipoise.io.logs.ros.ros1_bag import add_ros1
+from equipoise.io.logs.ros.ros2_database import add_database
 from equipoise.io.logs.unpacking_work import Work
 from equipoise.io.logs.zstd_frames import unframe_file
 from equipoise.io.mcap.foreign_mcap import add_foreign, is_foreign

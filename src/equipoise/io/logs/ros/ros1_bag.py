@@ -12,8 +12,8 @@ from equipoise.io.files.file_content import Content
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.logs.counted_file import CountedFile
 from equipoise.io.logs.log_topics import Topics
-from equipoise.io.logs.ros_messages import is_known
-from equipoise.io.logs.ros_types import DECODED, digest_of, ros_decoder
+from equipoise.io.logs.ros.ros_messages import is_known
+from equipoise.io.logs.ros.ros_types import DECODED, digest_of, ros_decoder
 from equipoise.io.logs.unpacking_work import Work
 
 ENTRY = 200  # bytes of an entry of an index as an object (chosen: measured are 180)
@@ -69,12 +69,13 @@ def _reader(content: Content) -> Any:
 
         def read_chunk(self) -> Any:
             """Return where a chunk is, and how it is unpacked."""
-            begin = self.bio.tell()
+            file = self.bio
+            begin = file.tell()
             chunk: Any = library.Reader.read_chunk(self)
-            end = self.bio.tell()
-            self.bio.seek(begin)
-            header = library.Header.read(self.bio)
-            self.bio.seek(end)
+            end = file.tell()
+            file.seek(begin)
+            header = library.Header.read(file)
+            file.seek(end)
             unpacker = _unpacker(header.get_string("compression"), work)
             size = header.get_uint32("size")
             if unpacker is None:
@@ -87,10 +88,11 @@ def _reader(content: Content) -> Any:
 
         def read_index_data(self, pos: int, indexes: Any) -> None:
             """Read where messages of a chunk are."""
-            begin = self.bio.tell()
-            (size,) = struct.unpack("<I", self.bio.read(HEADER)[-4:])
+            file = self.bio
+            begin = file.tell()
+            (size,) = struct.unpack("<I", file.read(HEADER)[-4:])
             work.meter.take(ENTRY * (size // PLACE))
-            self.bio.seek(begin)
+            file.seek(begin)
             library.Reader.read_index_data(self, pos, indexes)
 
     return Counted(_Place(content))

@@ -9,7 +9,7 @@ from typing import Any
 
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.logs.log_topics import OLD_TREE, TREE, Sample
-from equipoise.io.logs.ros_messages import samples_of
+from equipoise.io.logs.ros.ros_messages import samples_of
 
 DECODED = 100  # bytes in memory for one of a message that is decoded (chosen)
 Decoder = Callable[[bytes], Sequence[Sample]]

@@ -12,8 +12,8 @@ from pathlib import Path
 
 from equipoise.io.files.reading_budget import Meter
 from equipoise.io.logs.log_topics import PART, Topics
-from equipoise.io.logs.ros_messages import is_known
-from equipoise.io.logs.ros_types import DECODED, ros_decoder
+from equipoise.io.logs.ros.ros_messages import is_known
+from equipoise.io.logs.ros.ros_types import DECODED, ros_decoder
 from equipoise.io.logs.unpacking_work import Work
 from equipoise.io.logs.zstd_frames import unframed
 from equipoise.model.errors import InputError
