@@ -14,7 +14,7 @@ from tests.support.flight_logs import layout
 from tests.support.sample_logs import IMU, ROS1, TREE, message, reported
 
 PIECE = 1 << 20
-MD5 = ROS1.generate_msgdef(IMU)[1]
+DEFINED, MD5 = ROS1.generate_msgdef(IMU)
 
 
 # --- MCAP --------------------------------------------------------------------------------------
@@ -146,7 +146,7 @@ def bag(packed: bytes, size: int, form: bytes, entries: int = 1, infos: int = 1)
     body += bag_record((stamp + number(0)) * entries, **index)
     known = bag_record(
         bag_record(b"", topic=b"/imu", type=b"sensor_msgs/Imu", md5sum=MD5.encode(),
-                   message_definition=b"")[4:-4], op=b"\7", conn=number(0), topic=b"/imu",
+                   message_definition=DEFINED.encode())[4:-4], op=b"\7", conn=number(0), topic=b"/imu",
     )  # fmt: skip
     info = bag_record(
         number(0) + number(entries), op=b"\6", ver=number(1), count=number(1),
