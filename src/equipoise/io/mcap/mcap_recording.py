@@ -67,9 +67,12 @@ def _is_read(channel: Any, schema: Any) -> bool:
 
 def _free_from(found: Salvage, zero: int) -> float | None:
     """Return from when on the platform was free, s; None if nothing says so."""
-    ids = [each.id for each in found.channels.values() if each.topic == EVENT_TOPIC]
-    events = (each for number in ids for each in found.kept.of_one(number))
-    starts = [ns - zero for ns, data in events if _json(data).get("kind") == START]
+    ids = {key: each for key, each in found.channels.items() if each.topic == EVENT_TOPIC}
+    starts: list[int] = []
+    for _, ns, data in found.kept.of(ids):
+        found.meter.check(DECODED * len(data))
+        if _json(data).get("kind") == START:
+            starts.append(ns - zero)
     return max(starts) / PER_S if starts else None
 
 

@@ -33,6 +33,7 @@ from equipoise.model.errors import EquipoiseError
 
 IN_CHUNKS = {CODES[kind]: kind for kind in ("Schema", "Channel")}  # beside messages
 UNSURE = frozenset({"Message", None})  # kinds that nothing but what follows them makes sure
+OBJECT = 1000  # bytes of a schema or a channel, beside its texts (chosen: measured are 700)
 NEAR = 4096  # bytes that are searched first: most often a record is near (chosen)
 Found = tuple[Iterable[Any] | None, int]  # records, None: there is none; where they end
 
@@ -41,7 +42,7 @@ class Walk:
     """One way through a file, from its first record to its last."""
 
     def __init__(self, content: Content, source: str) -> None:
-        self._content, self._source, self._meter = content, source, content.meter
+        self._content, self._meter = content, content.meter
         self._library = log_library("mcap.records", source)
         self._work = Work(content.meter, len(content))
         self.lost_bytes = self.lost_places = 0
@@ -141,7 +142,7 @@ class Walk:
 
     def _inside(self, data: bytes | memoryview) -> Iterator[Any]:
         """Return a chunk's records; raises if the lengths do not fit."""
-        messages, others, at = array("Q"), list[Any](), 0
+        messages, others, at, held = array("Q"), list[Any](), 0, 0
         while at < len(data):
             self._meter.check(0)
             opcode, length = HEADING.unpack_from(data, at)
@@ -151,6 +152,8 @@ class Walk:
             if opcode == CODES["Message"]:
                 messages.append(start)
             elif opcode in IN_CHUNKS:
+                held += OBJECT + PARSED * length
+                self._meter.check(held)
                 others.append(self._parsed(IN_CHUNKS[opcode], bytes(data[start:at]))[0])
         return chain(others, (_message(data, start) for start in messages))
 
