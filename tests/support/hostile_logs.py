@@ -144,10 +144,9 @@ def bag(packed: bytes, size: int, form: bytes, entries: int = 1, infos: int = 1)
     body = bag_record(packed, op=b"\5", compression=form, size=number(size))
     index = {"op": b"\4", "ver": number(1), "conn": number(0), "count": number(entries)}
     body += bag_record((stamp + number(0)) * entries, **index)
-    known = bag_record(
-        bag_record(b"", topic=b"/imu", type=b"sensor_msgs/Imu", md5sum=MD5.encode(),
-                   message_definition=DEFINED.encode())[4:-4], op=b"\7", conn=number(0), topic=b"/imu",
-    )  # fmt: skip
+    kind = {"topic": b"/imu", "type": b"sensor_msgs/Imu", "md5sum": MD5.encode()}
+    said = bag_record(b"", **kind, message_definition=DEFINED.encode())[4:-4]
+    known = bag_record(said, op=b"\7", conn=number(0), topic=b"/imu")
     info = bag_record(
         number(0) + number(entries), op=b"\6", ver=number(1), count=number(1),
         chunk_pos=struct.pack("<Q", begin), start_time=stamp, end_time=stamp,
