@@ -237,7 +237,7 @@ def test_a_testbed_gives_alignment_and_laboratory(equipoise, tmp_path):
     ("content", "words", "said"),
     [
         (b"Windows PowerShell\r\nPS C:\\> ", ("vectornav",), "it begins b'Windows PowerShell"),
-        (b"", ("mavlink",), "nothing to read"),
+        (b"", ("mavlink",), "an empty file"),
         (rate_line(0), ("natnet", "--body", "1"), "no row; sensor natnet: 0 messages"),
         (pcap([(UTC, datagram_packet(b"query", 53))]), ("natnet", "--body", "1"),
          "1 datagram of other ports (53)"),

@@ -10,9 +10,7 @@ from mcap.reader import make_reader
 
 from equipoise.app.arguments.inputs import fitting_recording_of
 from equipoise.app.arguments.options import WHOLE, Reading
-from equipoise.io.files.file_content import Content
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
-from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, Samples, rows_between
@@ -94,9 +92,8 @@ def test_a_live_record_needs_no_repair_once_it_is_closed(equipoise, tmp_path):
     known, messages = chunks_and_messages("live.mcap")
     assert known > 1
     assert sum(topic == "/rate" for topic, _, _ in messages) == 160
-    (attachment,) = salvaged(
-        Content.of((tmp_path / "live.mcap").read_bytes(), "log"), ""
-    ).attachments
+    with (tmp_path / "live.mcap").open("rb") as file:
+        (attachment,) = make_reader(file).iter_attachments()
     assert (attachment.name, attachment.data) == ("testbed.toml", b"name = 'x'")
 
 

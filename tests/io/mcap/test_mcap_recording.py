@@ -108,15 +108,15 @@ def test_a_file_cut_anywhere_gives_what_is_before_the_cut(tmp_path):
     data = content.rindex(b"\x0f\x04" + bytes(7))
     for end in (*range(0, data, step), *range(data, len(content), 27), len(content)):
         found = salvaged(Content.of(content[:end], "log"), "cut")
-        assert len(found.messages) >= before
+        assert found.count >= before
         assert found.whole == (end == len(content))
-        before = len(found.messages)
+        before = found.count
     assert before == 6 * (4 + 4 + 2)
     for end in range(0, len(content), 211):
         try:
             assert_part_of(read_bytes_as(content[:end], tmp_path), record())
         except InputError:
-            assert len(salvaged(Content.of(content[:end], "log"), "cut").messages) < 30
+            assert salvaged(Content.of(content[:end], "log"), "cut").count < 30
 
 
 @settings(max_examples=EXAMPLES // 3, deadline=None)
@@ -126,7 +126,7 @@ def test_a_garbled_place_costs_two_chunks_at_most(place, junk):
     content = written()
     at = int(place * len(content))
     garbled = content[:at] + junk + content[at + len(junk) :]
-    assert len(salvaged(Content.of(garbled, "log"), "garbled").messages) >= 60 - 2 * 10
+    assert salvaged(Content.of(garbled, "log"), "garbled").count >= 60 - 2 * 10
     with tempfile.TemporaryDirectory() as folder:
         in_the_start = at < content.index(b"zstd")  # where the zero of time stands
         with contextlib.suppress(*[InputError] * in_the_start):
@@ -141,7 +141,7 @@ def test_a_garbled_chunk_is_reported_with_the_number_of_lost_messages(tmp_path):
     garbled = file_bytes[:at] + bytes(20) + file_bytes[at + 20 :]
     found = salvaged(Content.of(garbled, "log"), "garbled")
     assert (found.ended, found.whole, found.lost_places) == (True, False, 1)
-    assert found.lost_messages == 60 - len(found.messages) == 10
+    assert found.lost_messages == 60 - found.count == 10
     note = " ".join(read_bytes_as(garbled, tmp_path).notes)
     assert "10 messages are known to be lost" in note
     assert len(events_of(tmp_path / "cut.mcap")) == 5

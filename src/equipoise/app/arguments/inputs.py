@@ -109,12 +109,16 @@ def read_options(reading: "Reading", dashes: str = "") -> ReadOptions:
     if reading.dialect is not None and reading.columns is not None:
         raise InputError(f"{dashes}dialect and {dashes}columns", "both", "one of them")
     share(f"{dashes}bad{'-' if dashes else '_'}rows", reading.bad_rows)
+    columns = None if reading.columns is None else read_column_map(reading.columns)
+    return ReadOptions(reading.dialect, columns, reading.topic, reading.body, reading.instance,
+                       reading.bad_rows, memory_of(reading, dashes))  # fmt: skip
+
+
+def memory_of(reading: "Reading", dashes: str = "") -> int | None:
+    """Return how many bytes reading may take, if that is stated."""
     option = f"{dashes}max{'-' if dashes else '_'}memory{'-' if dashes else '_'}mb"
     stated = positive(option, reading.max_memory_mb)
-    columns = None if reading.columns is None else read_column_map(reading.columns)
-    memory = None if stated is None else int(stated * MB)
-    return ReadOptions(reading.dialect, columns, reading.topic, reading.body, reading.instance,
-                       reading.bad_rows, memory)  # fmt: skip
+    return None if stated is None else int(stated * MB)
 
 
 def fitted(recording: Recording, testbed: Testbed) -> Recording:

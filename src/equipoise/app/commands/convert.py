@@ -89,9 +89,10 @@ def convert(
 def _replayed(file: str, driver: str, captured: Captured, reading: Reading) -> "Recording":
     """Return the rows that a driver reads in a file, or the part that is asked for."""
     from equipoise.app.arguments.checks import positive
-    from equipoise.app.arguments.inputs import part_of, testbed_from
+    from equipoise.app.arguments.inputs import memory_of, part_of, testbed_from
     from equipoise.app.runs.captured_bytes import recording_of_capture
     from equipoise.app.runs.captured_sensor import Stated, unit_of
+    from equipoise.io.files.reading_budget import Budget
     from equipoise.model.errors import InputError
 
     if reading.dialect is not None:
@@ -99,9 +100,9 @@ def _replayed(file: str, driver: str, captured: Captured, reading: Reading) -> "
     rate = positive("--rate-hz", captured.rate_hz)
     bed = None if captured.testbed is None else testbed_from(captured.testbed)
     stated = Stated(captured.laboratory, _settings(captured, reading))
-    unit = unit_of(driver, bed, stated)
+    unit, budget = unit_of(driver, bed, stated), Budget(memory_of(reading, "--"))
     with counted("reading") as on_progress:
-        recording = recording_of_capture(file, unit, rate, on_progress)
+        recording = recording_of_capture(file, unit, rate, on_progress, budget)
     whole = reading.from_s is None and reading.to_s is None
     return recording if whole else part_of(recording, reading.from_s, reading.to_s)
 

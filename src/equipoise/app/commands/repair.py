@@ -37,7 +37,7 @@ def repair(file: str, /, *, out: Path) -> int:
 
 def _sentences(file: str, done: "Repaired") -> list[str]:
     found = done.found
-    kept = f"{len(found.messages)} messages, up to {done.last:.3f} s"
+    kept = f"{found.count} messages, up to {done.last:.3f} s"
     if not done.written:
         return [f"{file} is whole: {kept}. Nothing was written."]
     if found.whole:

@@ -6,8 +6,7 @@ The driver is the one of the bench, and so is what times and turns its rows.
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from os import SEEK_CUR, SEEK_END
-from typing import BinaryIO
+from os import SEEK_CUR
 
 from equipoise.app.runs.captured_sensor import STREAM
 from equipoise.hardware.links.captured_rows import CapturedRows, Timeless
@@ -16,8 +15,11 @@ from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.sensors.natnet_packet import cut_packets
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.transport.conversation import SensorDriver
-from equipoise.io.files.source_file import open_bytes
-from equipoise.io.logs.byte_capture import CHUNK, Piece, stream_pieces
+from equipoise.io.files.file_content import USUAL, opened
+from equipoise.io.files.reading_budget import Budget, Meter
+from equipoise.io.logs.broken_bytes import as_broken
+from equipoise.io.logs.byte_capture import CHUNK, Piece, Readable, stream_pieces
+from equipoise.io.logs.counted_file import CountedFile
 from equipoise.io.logs.pcap_capture import is_pcap, pcap_pieces
 from equipoise.io.logs.tlog_capture import is_tlog, tlog_pieces
 from equipoise.model.errors import InputError
@@ -28,6 +30,7 @@ OnProgress = Callable[[float], None]
 PORTS = {"natnet": (1510, 1511), "mavlink": (14550,)}  # UDP, as they are by default
 LINES = ("vectornav", "lines")  # whose rows end where a line does
 DATAGRAMS, NAMED = "udp:0", "udpout:file:0"  # how a driver is to read pieces
+ROW = 200  # bytes of a row, here and in the recording (chosen: measured are 130)
 SHOWN = 60  # bytes, chosen: of what comes first, where nothing is understood
 WANTED = "bytes of a sensor, as they were saved"
 
@@ -35,8 +38,8 @@ WANTED = "bytes of a sensor, as they were saved"
 class Capture:
     """A file's pieces on their way through a driver, and what else was found."""
 
-    def __init__(self, file: str, unit: SensorUnit, rate: float | None) -> None:
-        self.file, self.unit = file, unit
+    def __init__(self, meter: Meter, unit: SensorUnit, rate: float | None) -> None:
+        self.file, self.unit, self._meter = meter.source, unit, meter
         self.driver: SensorDriver = DRIVERS[unit.driver](unit)
         self.driver.opened()
         stated = unit.settings.get("rate_hz")
@@ -63,6 +66,7 @@ class Capture:
         except Timeless:
             wanted = "--rate-hz, at which they came"
             raise InputError(self.file, "rows and a file without times", wanted) from None
+        self._meter.take(ROW * len(rows))
         for row in rows:
             self._taken.row(row)
 
@@ -99,23 +103,20 @@ class Capture:
 
 
 def recording_of_capture(
-    file: str, unit: SensorUnit, rate: float | None, reported: OnProgress
+    file: str, unit: SensorUnit, rate: float | None, reported: OnProgress, budget: Budget = USUAL
 ) -> Recording:
     """Return the rows in a file of saved bytes, with notes of what was broken or left out."""
-    with open_bytes(file, WANTED) as content:
-        size = content.seek(0, SEEK_END)
-        content.seek(0)
-        beginning = content.read(CHUNK)
-        content.seek(0)
-        capture = Capture(file, replace(unit, port=_port(unit, is_pcap(beginning))), rate)
-        shown = 0
-        for piece in _pieces(content, beginning, unit):
+    with opened(file, WANTED, budget) as content, as_broken(file, "capture", WANTED):
+        beginning, stream = content[:CHUNK], CountedFile(content)
+        port = _port(unit, is_pcap(beginning))
+        capture, shown = Capture(content.meter, replace(unit, port=port), rate), 0
+        for piece in _pieces(stream, beginning, unit):
             capture.take(piece)
-            at = content.seek(0, SEEK_CUR)
+            at = stream.seek(0, SEEK_CUR)
             if at - shown > CHUNK:
                 shown = at
-                reported(at / size)
-    return capture.recording()
+                reported(at / len(content))
+        return capture.recording()
 
 
 def _port(unit: SensorUnit, datagrams: bool) -> Port:
@@ -125,7 +126,7 @@ def _port(unit: SensorUnit, datagrams: bool) -> Port:
     return Port(DATAGRAMS if datagrams else STREAM)
 
 
-def _pieces(content: BinaryIO, beginning: bytes, unit: SensorUnit) -> Iterator[Piece]:
+def _pieces(content: Readable, beginning: bytes, unit: SensorUnit) -> Iterator[Piece]:
     """Return a file's pieces; of what kind it is shows at its beginning."""
     if is_pcap(beginning):
         return pcap_pieces(content)

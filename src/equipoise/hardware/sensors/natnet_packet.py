@@ -64,16 +64,17 @@ def cut_packets(chunks: Iterable[bytes]) -> Iterator[bytes]:
     """Yield packets that were saved one behind the other; a cut one at the end is no whole one."""
     data = b""
     for chunk in chunks:
-        data += chunk
-        while len(data) >= HEAD and len(data) >= (size := HEAD + _size(data)):
-            yield data[:size]
-            data = data[size:]
+        data, at = data + chunk, 0
+        while len(data) - at >= HEAD and len(data) - at >= (size := HEAD + _size(data, at)):
+            yield data[at : at + size]
+            at += size
+        data = data[at:]
     if data:
         yield data
 
 
-def _size(data: bytes) -> int:
-    return int(struct.unpack_from("<H", data, 2)[0])
+def _size(data: bytes, at: int = 0) -> int:
+    return int(struct.unpack_from("<H", data, at + 2)[0])
 
 
 def frame_of(payload: bytes) -> Frame:

@@ -69,10 +69,11 @@ class Content:
     def find(self, mark: bytes, at: int = 0) -> int:
         """Return the first place of bytes from a place on; -1 if there is none."""
         while at + len(mark) <= self._size:
-            found = self[at : at + BLOCK].find(mark)
+            self[at : at + len(mark)]
+            found = self._block.find(mark, at - self._at)
             if found >= 0:
-                return at + found
-            at += BLOCK - len(mark) + 1
+                return self._at + found
+            at = self._at + len(self._block) - len(mark) + 1
         return -1
 
     def blocks(self) -> Iterator[bytes]:

@@ -5,7 +5,7 @@ A file is read as it is consumed, so one of hours takes no more memory than a sh
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import BinaryIO, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 CHUNK = 65536  # bytes, chosen: read at once
 
@@ -16,6 +16,10 @@ class Readable(Protocol):
 
     def read(self, size: int = -1, /) -> bytes:
         """Return so many bytes, fewer at the end."""
+        ...
+
+    def readline(self, size: int = -1, /) -> bytes:
+        """Return the bytes up to the end of a line, of a long one so many."""
         ...
 
 
@@ -29,7 +33,7 @@ class Piece:
     broken: bool = False  # these bytes of the file are no whole piece
 
 
-def stream_pieces(file: BinaryIO) -> Iterator[Piece]:
+def stream_pieces(file: Readable) -> Iterator[Piece]:
     """Yield a stream of bytes line by line; what has no lines in it, chunk by chunk."""
     while data := file.readline(CHUNK):
         yield Piece(data)

@@ -20,6 +20,7 @@ Format (public: ArduPilot's AP_Logger), all numbers least byte first; messages w
 Broken bytes are stepped over, up to the next that begin as a message does.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -29,6 +30,8 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
+from equipoise.io.files.reading_budget import Meter
+from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -51,6 +54,8 @@ BEST = {"attitude": ("XKQ", "NKQ", "AHR2", "ATT"), "rate": ("IMU", "GYR"),
 KNOWN = frozenset(kind for kinds in BEST.values() for kind in kinds)
 NUMBERED = frozenset({"XKQ", "NKQ", "IMU", "GYR", "ACC"})
 INSTANCE = {"XKQ": "C", "NKQ": "C", "IMU": "I", "GYR": "I", "ACC": "I"}
+COUNTS = ("b", "B")  # letters of an instance's number
+ROW = 150  # bytes of a row, here and in the tables made of it (chosen: measured are 90)
 QUATERNION, ANGLES = ("Q1", "Q2", "Q3", "Q4"), ("Roll", "Pitch", "Yaw")
 RATE, ACCELERATION = ("GyrX", "GyrY", "GyrZ"), ("AccX", "AccY", "AccZ")
 
@@ -77,40 +82,48 @@ class Layout:
 
 @dataclass(slots=True)
 class Messages:
-    """What a log holds: the rows of each type, as bytes without their heads."""
+    """What a log holds: the rows of each type that is read, as bytes without their heads."""
 
+    meter: Meter
     layouts: dict[int, Layout] = field(default_factory=dict[int, Layout])
     rows: dict[int, list[bytes]] = field(default_factory=dict[int, list[bytes]])
+    counts: Counter[int] = field(default_factory=Counter[int])  # rows of all types
     broken: int = 0  # places that made no sense
 
 
 def read_dataflash(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
-    log = messages_of(content)
-    damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
-    channels, notes = chosen(list(_sources(log)), source, options, BEST)
-    return log_table(source, channels, None, (*damaged, *notes)), flight_map(channels)
+    with as_broken(source, "log", "a whole log of ArduPilot"):
+        log = messages_of(content)
+        damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
+        channels, notes = chosen(list(_sources(log)), source, options, BEST)
+        return log_table(content.meter, channels, None, (*damaged, *notes)), flight_map(channels)
 
 
 def messages_of(content: Content) -> Messages:
     """Return the messages of a log, broken ones left out."""
-    found, at = Messages({LAYOUT: Layout("FMT", LAYOUT_BYTES, ())}), 0
+    found, at = Messages(content.meter, {LAYOUT: Layout("FMT", LAYOUT_BYTES, ())}), 0
     while at + HEAD <= len(content):
-        layout = found.layouts.get(content[at + 2]) if content.startswith(MAGIC, at) else None
+        content.meter.check(0)
+        head = content[at : at + HEAD]
+        layout = found.layouts.get(head[2]) if head.startswith(MAGIC) else None
         if layout is None or at + layout.length > len(content):
             found.broken += 1
             at = content.find(MAGIC, at + 1)
             if at < 0:
                 break
             continue
-        _take(found, content[at + 2], content[at + HEAD : at + layout.length])
+        _take(found, head[2], content[at + HEAD : at + layout.length])
         at += layout.length
     return found
 
 
 def _take(found: Messages, kind: int, body: bytes) -> None:
     if kind != LAYOUT:
-        found.rows.setdefault(kind, []).append(body)
+        found.counts[kind] += 1
+        if _instance(found.layouts[kind].name)[0] in KNOWN:
+            found.meter.take(ROW + 2 * len(body))
+            found.rows.setdefault(kind, []).append(body)
         return
     number, length = body[:2]
     name, letters, columns = (_text(body[a:b]) for a, b in ((2, 6), (6, 22), (22, 86)))
@@ -129,14 +142,15 @@ def _text(data: bytes) -> str:
 
 def _sources(log: Messages) -> Iterator[Source]:
     """Yield every type of message; of those that are read every instance."""
-    for number, rows in log.rows.items():
+    for number, count in log.counts.items():
         layout = log.layouts[number]
         name, instance = _instance(layout.name)
         if name not in KNOWN or not layout.fields:
-            yield Source(layout.name, layout.name, len(rows))
+            yield Source(layout.name, layout.name, count)
             continue
-        columns = layout.columns(rows)
-        which = columns.get(INSTANCE.get(name, ""), np.full(len(rows), float(instance)))
+        columns = layout.columns(log.rows[number])
+        counted = dict(layout.fields).get(INSTANCE.get(name, "")) in COUNTS
+        which = columns[INSTANCE[name]] if counted else np.full(count, float(instance))
         for each in np.unique(which).tolist():
             part = {key: values[which == each] for key, values in columns.items()}
             count = int((which == each).sum())

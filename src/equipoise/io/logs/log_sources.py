@@ -110,9 +110,11 @@ def _best(
         found = [each for each in candidates if each.kind == kind and each.gives(channel)]
         names = sorted({each.name for each in found})
         if len(names) > 1:
-            rows = ", ".join(f"{s.name} ({s.count} rows)" for s in sorted(found, key=_by_name))
+            listed = [f"{s.name} ({s.count} rows)" for s in sorted(found, key=_by_name)]
             wanted = f"one, the platform's: --topic NAME, such as --topic {names[0]}"
-            raise InputError(file, f"{len(names)} topics of {kind}: {rows}", wanted)
+            raise InputError(
+                file, f"{len(names)} topics of {kind}: {', '.join(_cut(listed))}", wanted
+            )
         if found:
             return _instance(found, file, options)
     return None
@@ -172,7 +174,8 @@ def _check_instance(taken: Taken, known: Sequence[Source], file: str, options: R
         return
     has = {each.name: _numbers(_instances(each, known)) for each in known if each.holds}
     used = " and ".join(dict.fromkeys(f"'{source.name}'" for source in taken.values()))
-    wanted = "one of " + "; ".join(f"{name}: {numbers}" for name, numbers in has.items())
+    listed = _cut([f"{name}: {numbers}" for name, numbers in has.items()])
+    wanted = "one of " + "; ".join(listed)
     raise InputError(f"{file}, --instance", f"no instance {stated} of {used}", wanted)
 
 
@@ -210,7 +213,11 @@ def _listed(sources: Sequence[Source]) -> str:
 
 
 def _texts(sources: Sequence[Source]) -> list[str]:
-    shown = list(dict.fromkeys(map(str, sorted(sources, key=_by_name))))
+    return _cut(list(dict.fromkeys(map(str, sorted(sources, key=_by_name)))))
+
+
+def _cut(shown: list[str]) -> list[str]:
+    """Return no more of a list than a screen has place for."""
     more = [f"and {len(shown) - LISTED} more"] if len(shown) > LISTED else []
     return [*shown[:LISTED], *more]
 

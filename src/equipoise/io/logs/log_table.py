@@ -30,6 +30,7 @@ from equipoise.io.columns.native_columns import (
 )
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
 from equipoise.io.columns.table import Table, finite
+from equipoise.io.files.reading_budget import Meter
 from equipoise.io.formats.clock_units import seconds
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError
@@ -64,16 +65,18 @@ class LogChannel:
 
 
 def log_table(
-    source: str, channels: Sequence[LogChannel], zero_ns: int | None, notes: tuple[str, ...] = ()
+    meter: Meter, channels: Sequence[LogChannel], zero_ns: int | None, notes: tuple[str, ...] = ()
 ) -> Table:
     """Return a log's channels as a table; ``zero_ns`` is time zero, None: the first row is.
 
-    InputError if there is no row.
+    InputError if there is no row, or if the table is too large.
     """
+    source = meter.source
     tidy = [_tidy(channel) for channel in channels if len(channel.ns)]
     if not tidy:
         raise InputError(source, "no row of attitude or rate", "a log of a motion")
     times = np.unique(np.concatenate([each.channel.ns for each in tidy]))
+    meter.take(times.itemsize * len(times) * sum(each.channel.values.shape[1] for each in tidy))
     zero = int(times[0]) if zero_ns is None else zero_ns
     columns: dict[str, Series1] = {TIME: seconds(times - zero)}
     for each in tidy:

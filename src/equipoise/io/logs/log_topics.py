@@ -9,12 +9,15 @@ A twist or a vector in the axes of the laboratory is no rate in body axes: it to
 """
 
 import re
+from array import array
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.io.files.reading_budget import Meter
 from equipoise.io.logs.log_sources import Best, Source
 from equipoise.io.logs.log_table import LogChannel
 
@@ -26,6 +29,8 @@ OLD_TREE = "tf/msg/tfMessage"  # of ROS 1 before tf2
 TWIST, VECTOR = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/Vector3Stamped"
 ODOMETRY, IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
 FRAME_TRANSFORM, POSE_IN_FRAME = "foxglove.FrameTransform", "foxglove.PoseInFrame"
+ROW = 80  # bytes of a row, here and in the tables made of it (chosen: measured are 60)
+PART = 2000  # bytes of a source with its arrays (chosen)
 LATEST = 2**62  # ns since 1970, chosen: the year 2116; beyond, a count is no time
 BEST: Best = {
     "attitude": (
@@ -56,10 +61,8 @@ class _Rows:
 
     count: int = 0
     frame: str = ""
-    ns: dict[str, list[int]] = field(default_factory=dict[str, list[int]])
-    values: dict[str, list[tuple[float, ...]]] = field(
-        default_factory=dict[str, list[tuple[float, ...]]]
-    )
+    ns: "dict[str, array[int]]" = field(default_factory=dict[str, "array[int]"])
+    values: "dict[str, array[float]]" = field(default_factory=dict[str, "array[float]"])
 
     def add(self, sample: Sample, logged: int) -> None:
         """Take a sample in; one of an impossible time is left out."""
@@ -69,13 +72,15 @@ class _Rows:
         self.count += 1
         self.frame = sample.frame
         for channel, row in sample.values.items():
-            self.ns.setdefault(channel, []).append(ns)
-            self.values.setdefault(channel, []).append(row)
+            self.ns.setdefault(channel, array("q")).append(ns)
+            self.values.setdefault(channel, array("d")).extend(row)
 
     def channels(self) -> dict[str, LogChannel]:
         """Return what there is, by channel."""
         return {
-            channel: LogChannel(channel, np.array(ns), np.array(self.values[channel], float))
+            channel: LogChannel(
+                channel, np.array(ns), np.array(self.values[channel]).reshape(len(ns), -1)
+            )
             for channel, ns in self.ns.items()
         }
 
@@ -84,6 +89,7 @@ class _Rows:
 class Topics:
     """All topics of a log: the rows of known types, of others how many messages there are."""
 
+    meter: Meter
     counts: dict[tuple[str, str], int] = field(default_factory=dict[tuple[str, str], int])
     _rows: dict[tuple[str, str, str], _Rows] = field(
         default_factory=dict[tuple[str, str, str], _Rows]
@@ -96,23 +102,29 @@ class Topics:
     def add(self, name: str, kind: str, logged: int, samples: Sequence[Sample]) -> None:
         """Take in what a message holds; ``logged``: ns, where it has no stamp itself."""
         for sample in samples:
-            self._rows.setdefault((name, kind, sample.part), _Rows()).add(sample, logged)
+            key = name, kind, sample.part
+            if key not in self._rows:
+                self.meter.take(PART)
+                self._rows[key] = _Rows()
+            self.meter.take(ROW * len(sample.values))
+            self._rows[key].add(sample, logged)
 
     def sources(self) -> list[Source]:
         """Return the sources, with what is the matter with those that cannot be used."""
         frames = {rows.frame for (_, kind, _), rows in self._rows.items() if kind in IN_LABORATORY}
         laboratories = LABORATORIES | (frames - {""})
+        parts = Counter(key[:2] for key in self._rows)
         found = [
-            _source(self._name(*key), key[1], rows, laboratories)
+            _source(_name(*key, parts[key[:2]] > 1), key[1], rows, laboratories)
             for key, rows in self._rows.items()
         ]
         read = {(name, kind) for name, kind, _ in self._rows}
         return found + [Source(*key, n) for key, n in self.counts.items() if key not in read]
 
-    def _name(self, name: str, kind: str, part: str) -> str:
-        """Return a source's name: its child frame is in it where the topic has several."""
-        parts = sum(key[:2] == (name, kind) for key in self._rows)
-        return f"{name}:{part}" if kind in TREES or parts > 1 else name
+
+def _name(name: str, kind: str, part: str, several: bool) -> str:
+    """Return a source's name: its child frame is in it where the topic has several."""
+    return f"{name}:{part}" if kind in TREES or several else name
 
 
 def _source(name: str, kind: str, rows: _Rows, laboratories: frozenset[str]) -> Source:

@@ -27,6 +27,8 @@ from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.clock_units import PER_MS, PER_S, PER_US, nanoseconds
 from equipoise.io.formats.optional_libraries import extra_library
+from equipoise.io.logs.broken_bytes import as_broken
+from equipoise.io.logs.counted_file import CountedFile
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -44,6 +46,8 @@ BEST = {"attitude": (QUATERNION, ANGLES), "rate": (HIGHRES, SCALED, RAW, QUATERN
 KNOWN = frozenset((*BEST["attitude"], *BEST["rate"], "SCALED_IMU2", "SCALED_IMU3"))
 GYRO = 0x38  # bits of HIGHRES_IMU.fields_updated: gyro x, y, z
 SAME = PER_S  # ns, chosen: clocks that differ by less are one; a step back by more is a new start
+MESSAGE = 850  # bytes of a row, here and in the tables made of it (chosen: measured are 770)
+KIND = 500  # bytes of a kind of message and how many there are (chosen)
 NO_AUTOPILOT, ARDUPILOT = 8, 3  # MAV_AUTOPILOT
 
 
@@ -76,28 +80,29 @@ class Telemetry:
 
 def read_tlog(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
-    log = telemetry_of(content, source)
-    vehicle = log.vehicle
-    sources: list[Source] = []
-    began_anew = False
-    if vehicle is not None:
-        sources, began_anew = _sources(log, vehicle)
-    others = sum(len(rows) for sender, rows in log.messages.items() if sender != vehicle)
-    notices = (
-        (log.broken, f"The log is broken in {log.broken} places; left out."),
-        (others, f"{others} rows of other systems or components were left aside."),
-        (began_anew, "The vehicle's clock began anew; times are those at which rows arrived."),
-    )
-    channels, notes = chosen(sources, source, options, BEST)
-    notes = (*(text for count, text in notices if count), *notes)
-    return log_table(source, channels, None, notes), flight_map(channels)
+    with as_broken(source, "log", "a whole telemetry log"):
+        log = telemetry_of(content, source)
+        vehicle = log.vehicle
+        sources: list[Source] = []
+        began_anew = False
+        if vehicle is not None:
+            sources, began_anew = _sources(log, vehicle)
+        others = sum(len(rows) for sender, rows in log.messages.items() if sender != vehicle)
+        notices = (
+            (log.broken, f"The log is broken in {log.broken} places; left out."),
+            (others, f"{others} rows of other systems or components were left aside."),
+            (began_anew, "The vehicle's clock began anew; times are those at which rows arrived."),
+        )
+        channels, notes = chosen(sources, source, options, BEST)
+        notes = (*(text for count, text in notices if count), *notes)
+        return log_table(content.meter, channels, None, notes), flight_map(channels)
 
 
 def telemetry_of(content: Content, source: str) -> Telemetry:
     """Return the messages of a log, broken ones left out."""
     dialect = extra_library("pymavlink.dialects.v20.common", source, "a log", "mavlink")
     parser, found = dialect.MAVLink(None), Telemetry({}, {}, {})
-    for piece in tlog_pieces(content.from_start()):
+    for piece in tlog_pieces(CountedFile(content)):
         if piece.broken or piece.t is None:
             found.broken += 1
             continue
@@ -108,9 +113,12 @@ def telemetry_of(content: Content, source: str) -> Telemetry:
             except Exception:  # a parser of broken bytes raises anything
                 found.broken += 1
                 continue
+            content.meter.take(MESSAGE)
             _take(found, message, nanoseconds(piece.t))
         else:
-            found.counts.setdefault(_sender(piece.data), Counter())[name] += 1
+            counted = found.counts.setdefault(_sender(piece.data), Counter())
+            content.meter.take(0 if name in counted else KIND)
+            counted[name] += 1
     return found
 
 

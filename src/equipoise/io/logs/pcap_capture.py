@@ -14,9 +14,8 @@ import math
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import BinaryIO
 
-from equipoise.io.logs.byte_capture import Piece
+from equipoise.io.logs.byte_capture import Piece, Readable
 from equipoise.model.units import NS, US
 
 PCAP = {  # magic: which end comes first, s in a unit of time
@@ -52,7 +51,7 @@ def is_pcap(beginning: bytes) -> bool:
     return beginning[:4] in PCAP or beginning[:4] == PCAPNG
 
 
-def pcap_pieces(file: BinaryIO) -> Iterator[Piece]:
+def pcap_pieces(file: Readable) -> Iterator[Piece]:
     """Yield every UDP datagram, when it was captured."""
     begin = file.read(4)
     packets = _of_pcapng(file) if begin == PCAPNG else _of_pcap(file, *PCAP[begin])
@@ -65,7 +64,7 @@ def pcap_pieces(file: BinaryIO) -> Iterator[Piece]:
         yield Piece(b"", broken=True)
 
 
-def _of_pcap(file: BinaryIO, end: str, unit: float) -> Iterator[tuple[float, int, bytes]]:
+def _of_pcap(file: Readable, end: str, unit: float) -> Iterator[tuple[float, int, bytes]]:
     (link,) = struct.unpack(f"{end}16xI", _taken(file, 20))
     while head := file.read(16):
         if len(head) < 16:
@@ -74,7 +73,7 @@ def _of_pcap(file: BinaryIO, end: str, unit: float) -> Iterator[tuple[float, int
         yield seconds + fraction * unit, link & 0xFFFF, _taken(file, size)
 
 
-def _of_pcapng(file: BinaryIO) -> Iterator[tuple[float, int, bytes]]:
+def _of_pcapng(file: Readable) -> Iterator[tuple[float, int, bytes]]:
     end, head = "<", PCAPNG + _taken(file, 4)
     interfaces: list[Interface] = []
     while head:
@@ -129,7 +128,7 @@ def _datagram(t: float, link: int, data: bytes) -> Piece | None:
     return Piece(udp[8:size], t, (source, goal))
 
 
-def _taken(file: BinaryIO, size: int) -> bytes:
+def _taken(file: Readable, size: int) -> bytes:
     data = file.read(size) if 0 <= size <= MOST else b""
     if len(data) < max(size, 0) or size < 0:
         raise Cut

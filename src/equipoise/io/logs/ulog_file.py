@@ -32,6 +32,7 @@ Broken bytes are stepped over.
 """
 
 import struct
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -42,9 +43,12 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
+from equipoise.io.files.reading_budget import Meter
+from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
+from equipoise.io.logs.ulog_layout import flat_layout
 
 MAGIC = b"ULog\x01\x12\x35"
 Q = tuple(f"q[{k}]" for k in range(4))
@@ -71,33 +75,30 @@ BEST = {channel: tuple(topics) for channel, topics in SOURCES.items()}
 HEADER = 16  # bytes
 SYNC = b"\x2f\x73\x13\x20\x25\x0c\xbb\x12"
 KINDS = frozenset(b"BFIMPQADSOLCR")  # of messages
-TYPES = {
-    "int8_t": "<i1", "uint8_t": "<u1", "int16_t": "<i2", "uint16_t": "<u2", "int32_t": "<i4",
-    "uint32_t": "<u4", "int64_t": "<i8", "uint64_t": "<u8", "float": "<f4", "double": "<f8",
-    "bool": "<u1", "char": "<u1",
-}  # fmt: skip
-DEEPEST = 4  # layouts within layouts; chosen: PX4 has two
-Column = tuple[str, str]  # name, type of NumPy
+DECLARED = 1000  # bytes of a layout or a subscription, beside its text (chosen)
+ROW = 150  # bytes of a row, here and in the tables made of it (chosen: measured are 110)
+KNOWN = frozenset(topic for topics in SOURCES.values() for topic in topics)
 Instance = tuple[str, int]  # of a topic
 
 
 def read_ulog(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
-    log = ulog_topics(content)
-    damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
-    channels, notes = chosen(list(_sources(log)), source, options, BEST)
-    table = log_table(source, channels, None, (*damaged, *notes))
-    return table, flight_map(channels)
+    with as_broken(source, "log", "a whole log of PX4"):
+        log = ulog_topics(content)
+        damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
+        channels, notes = chosen(list(_sources(log)), source, options, BEST)
+        table = log_table(content.meter, channels, None, (*damaged, *notes))
+        return table, flight_map(channels)
 
 
 def _sources(log: "UlogTopics") -> Iterator[Source]:
     """Yield every instance of every topic that is logged."""
-    for (topic, instance), rows in log.rows.items():
+    for (topic, instance), count in log.counts.items():
         data, channels = log.columns(topic, instance), dict[str, LogChannel]()
         for name, topics in SOURCES.items():
             if topic in topics and {"timestamp", *topics[topic]} <= data.keys():
                 channels[name] = _channel(name, data, topics[topic])
-        yield Source(topic, topic, len(rows), channels, instance)
+        yield Source(topic, topic, count, channels, instance)
 
 
 def _channel(
@@ -113,17 +114,20 @@ def _channel(
 
 @dataclass(slots=True)
 class UlogTopics:
-    """What a file's topics hold: rows by topic and instance, as bytes until asked for."""
+    """What a file's topics hold: rows of those that are read, as bytes until asked for."""
 
+    meter: Meter
     layouts: dict[str, str] = field(default_factory=dict[str, str])
     numbers: dict[int, Instance] = field(default_factory=dict[int, Instance])  # of subscriptions
     rows: dict[Instance, list[bytes]] = field(default_factory=dict[Instance, list[bytes]])
+    counts: Counter[Instance] = field(default_factory=Counter[Instance])  # rows of all topics
     broken: int = 0  # places that made no sense
 
     def columns(self, topic: str, instance: int = 0) -> dict[str, NDArray[np.generic]]:
         """Return a topic's columns, 'q[0]' of an array; none if it is not there."""
-        flat, rows = _flat(self.layouts, topic, DEEPEST), self.rows.get((topic, instance), [])
-        if not flat or not rows:
+        rows = self.rows.get((topic, instance), [])
+        flat = flat_layout(self.layouts, topic) if rows else ()
+        if not flat:
             return {}
         kind = np.dtype([(f"c{k}", type_) for k, (_, type_) in enumerate(flat)])
         whole = b"".join(row[: kind.itemsize] for row in rows if len(row) >= kind.itemsize)
@@ -133,8 +137,9 @@ class UlogTopics:
 
 def ulog_topics(content: Content) -> UlogTopics:
     """Return the topics of a file that begins as a ULog does."""
-    found, at = UlogTopics(), HEADER
+    found, at = UlogTopics(content.meter), HEADER
     while at + 3 <= len(content):
+        content.meter.check(0)
         size, kind = struct.unpack("<HB", content[at : at + 3])
         if kind not in KINDS or at + 3 + size > len(content):
             found.broken += 1
@@ -151,40 +156,20 @@ def ulog_topics(content: Content) -> UlogTopics:
 def _take(found: UlogTopics, kind: int, body: bytes) -> None:
     if kind == ord("F"):
         name, _, layout = body.decode("ascii", errors="replace").partition(":")
+        found.meter.take(DECLARED + len(body))
         found.layouts.setdefault(name, layout)
     elif kind == ord("A") and len(body) > 3:
         subscribed = body[3:].decode(errors="replace"), body[0]
+        found.meter.take(DECLARED + len(body))
         found.numbers.setdefault(int.from_bytes(body[1:3], "little"), subscribed)
     elif kind == ord("D") and len(body) > 2:
         topic = found.numbers.get(int.from_bytes(body[:2], "little"))
         if topic is not None:
-            found.rows.setdefault(topic, []).append(body[2:])
+            _take_row(found, topic, body[2:])
 
 
-def _flat(layouts: dict[str, str], topic: str, deep: int) -> list[Column]:
-    """Return a topic's columns in the order of their bytes; none if its layout makes no sense."""
-    columns: list[Column] = []
-    parts = [part.split(" ") for part in layouts.get(topic, "").split(";") if part]
-    while parts and parts[-1][-1].startswith("_padding"):
-        parts.pop()
-    for part in parts:
-        if len(part) != 2 or not deep:
-            return []
-        within = _field(layouts, part[0], part[1], deep)
-        if not within:
-            return []
-        columns += within
-    return columns
-
-
-def _field(layouts: dict[str, str], kind: str, name: str, deep: int) -> list[Column]:
-    """Return the columns of one field, which may be an array or a layout."""
-    base, bracket, rest = kind.partition("[")
-    count = rest.removesuffix("]")
-    if bracket and not (count.isdecimal() and 0 < int(count) < 1 << 16):
-        return []
-    names = [f"{name}[{k}]" for k in range(int(count))] if bracket else [name]
-    if base in TYPES:
-        return [(each, TYPES[base]) for each in names]
-    inner = _flat(layouts, base, deep - 1) if base in layouts else []
-    return [(f"{each}.{part}", type_) for each in names for part, type_ in inner]
+def _take_row(found: UlogTopics, topic: Instance, row: bytes) -> None:
+    found.counts[topic] += 1
+    if topic[0] in KNOWN:
+        found.meter.take(ROW + 2 * len(row))
+        found.rows.setdefault(topic, []).append(row)

@@ -10,9 +10,10 @@ degrees, 3-2-1; rates are rad/s. The messages hold no time, so a row has that of
 begins anew at midnight. Axes as in ``flight_axes``.
 """
 
+import math
 import re
 from binascii import crc_hqx
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
 
@@ -22,6 +23,8 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
+from equipoise.io.files.reading_budget import Meter
+from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -37,6 +40,9 @@ WIDTHS = {"VNQMR": 13, "VNQTN": 4, "VNYMR": 12, "VNYPR": 3, "VNGYR": 3}  # numbe
 BEST = {"attitude": ("VNQMR", "VNQTN", "VNYMR", "VNYPR"), "rate": ("VNQMR", "VNYMR", "VNGYR")}
 QUATERNIONS = frozenset({"VNQMR", "VNQTN"})
 DAY = 86_400.0  # s
+LONGEST = 4096  # bytes of a line (chosen: thirty times what a message has)
+ROW = 750  # bytes of a row, here and in the tables made of it (chosen: measured are 680)
+AXES = "Axes: ahead, left, up of the sensor, whose own y and z point the other way."
 MOST_BACK = 0.5  # share of the rows that may be behind the one before (chosen)
 
 
@@ -44,6 +50,7 @@ MOST_BACK = 0.5  # share of the rows that may be behind the one before (chosen)
 class Lines:
     """What a log's lines hold."""
 
+    meter: Meter
     rows: dict[str, list[tuple[float, ...]]] = field(
         default_factory=dict[str, list[tuple[float, ...]]]
     )
@@ -69,6 +76,7 @@ class Lines:
             return
         t = self._time(before)
         if t is not None:
+            self.meter.take(ROW)
             self.rows.setdefault(name, []).append(row)
             self.times.setdefault(name, []).append(t)
 
@@ -80,8 +88,7 @@ class Lines:
             return None
         hours, minutes, seconds = found[1], found[2], found[3].replace(b",", b".")
         t = 3600.0 * int(hours) + 60.0 * int(minutes) + float(seconds)
-        while t < self._last - DAY / 2:
-            t += DAY
+        t += DAY * max(math.ceil((self._last - DAY / 2 - t) / DAY), 0)
         if t < self._last:
             self.back += 1
             return None
@@ -96,23 +103,42 @@ def is_vectornav(content: bytes) -> bool:
 
 def read_vectornav(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none, or no clock."""
-    lines = Lines()
-    for line in content.whole().splitlines():
-        lines.take(line)
-    _check_timed(lines, source)
+    with as_broken(source, "log", "a terminal's log of a VectorNav"):
+        lines = Lines(content.meter)
+        for line in lines_of(content):
+            lines.take(line)
+        _check_timed(lines, source)
+        found = [
+            Source(name, name, len(rows), _channels(name, rows, lines.times[name]))
+            for name, rows in lines.rows.items()
+        ]
+        channels, notes = chosen(found, source, options, BEST)
+        notes = (*_left(lines), *notes, AXES)
+        return log_table(content.meter, channels, None, notes), flight_map(channels)
+
+
+def lines_of(content: Content) -> Iterator[bytes]:
+    """Yield a text's lines, however they end; of one that is too long the last bytes."""
+    rest = b""
+    for block in content.blocks():
+        content.meter.check(0)
+        *lines, rest = (rest + block).splitlines(keepends=True)
+        yield from lines
+        if rest.endswith((b"\r", b"\n")):
+            yield rest
+            rest = b""
+        rest = rest[-LONGEST:]
+    yield rest
+
+
+def _left(lines: Lines) -> list[str]:
+    """Return notes on lines that were left out."""
     notices = (
         (lines.broken, "were broken, by their checksum or their numbers; left out"),
         (lines.timeless, "had no time; left out"),
         (lines.back, "had a time before the last one's; left out"),
     )
-    left = [f"{count} lines {what}." for count, what in notices if count]
-    found = [
-        Source(name, name, len(rows), _channels(name, rows, lines.times[name]))
-        for name, rows in lines.rows.items()
-    ]
-    channels, notes = chosen(found, source, options, BEST)
-    axes = "Axes: ahead, left, up of the sensor, whose own y and z point the other way."
-    return log_table(source, channels, None, (*left, *notes, axes)), flight_map(channels)
+    return [f"{count} lines {what}." for count, what in notices if count]
 
 
 def _check_timed(lines: Lines, source: str) -> None:

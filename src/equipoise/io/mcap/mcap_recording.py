@@ -7,6 +7,8 @@ garbled file is read as far as it is sound, and that is noted.
 """
 
 import json
+import re
+from array import array
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -18,10 +20,11 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
+from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.log_sources import chosen, refuse_choice
 from equipoise.io.logs.log_table import LogChannel, log_map, log_table
 from equipoise.io.logs.log_topics import BEST, FRAME_TRANSFORM, LATEST
-from equipoise.io.mcap.foreign_mcap import foreign_sources
+from equipoise.io.mcap.foreign_mcap import DECODED, foreign_sources, is_foreign
 from equipoise.io.mcap.foxglove_messages import turned
 from equipoise.io.mcap.live_recording import METADATA, ZERO_KEY, LiveRecording, Opening
 from equipoise.io.mcap.log_messages import (
@@ -35,25 +38,42 @@ from equipoise.io.mcap.log_messages import (
 from equipoise.io.mcap.mcap_salvage import Salvage, salvaged
 from equipoise.model.recording import CHANNELS, Recording, rows_between
 
+OURS = frozenset((*map(topic_of, CHANNELS), EVENT_TOPIC))
+DIGITS = re.compile("[0-9]{1,19}")
 SLICE = 2.0  # s to a chunk of a file that is written in one go (chosen: what a broken byte costs)
 
 
 def read_mcap(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return an MCAP file's rows and what they mean; InputError if there are none."""
-    found = salvaged(content, source)
-    notes = loss_notes(found)
-    zero = time_zero(found)
+    with as_broken(source, "MCAP file", "a recording that is whole: try `equipoise repair`"):
+        return _read(salvaged(content, source, _is_read), source, options)
+
+
+def _read(found: Salvage, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
+    notes, zero = loss_notes(found), time_zero(found)
     if zero is None:
         channels, notices = chosen(foreign_sources(found, source), source, options, BEST)
-        return log_table(source, channels, None, (*notes, *notices)), log_map(channels)
+        return log_table(found.meter, channels, None, (*notes, *notices)), log_map(channels)
     refuse_choice(options, source, "a recording of ours, which is read as a whole")
     ours = _our_channels(found)
-    known = log_map(ours, ours=True)
-    ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
-    events = [each for each in found.messages if each.channel_id in ids]
-    starts = [e.log_time - zero for e in events if _json(e.data).get("kind") == START]
-    free_from = max(starts) / PER_S if starts else None
-    return log_table(source, ours, zero, notes), replace(known, free_from=free_from)
+    known = replace(log_map(ours, ours=True), free_from=_free_from(found, zero))
+    return log_table(found.meter, ours, zero, notes), known
+
+
+def _is_read(channel: Any, schema: Any) -> bool:
+    """Say whether messages of a channel may be of use."""
+    return channel.topic in OURS or is_foreign(channel, schema)
+
+
+def _free_from(found: Salvage, zero: int) -> float | None:
+    """Return from when on the platform was free, s; None if nothing says so."""
+    ids = {key: each for key, each in found.channels.items() if each.topic == EVENT_TOPIC}
+    starts: list[int] = []
+    for _, ns, data in found.kept.of(ids):
+        found.meter.check(DECODED * len(data))
+        if _json(data).get("kind") == START:
+            starts.append(ns - zero)
+    return max(starts) / PER_S if starts else None
 
 
 def write_mcap(recording: Recording, path: str | Path) -> None:
@@ -85,39 +105,41 @@ def time_zero(found: Salvage) -> int | None:
     """Return the clock's reading at time zero; None if the file is another program's."""
     for each in found.metadata:
         zero = each.metadata.get(ZERO_KEY, "") if each.name == METADATA else ""
-        if zero.isdecimal() and int(zero) < LATEST:
+        if DIGITS.fullmatch(zero) and int(zero) < LATEST:
             return int(zero)
     ours = [c for c in found.channels.values() if CHANNEL_KEY in c.metadata]
     # Garbled where the start stood: the first row is time zero then.
-    return min((m.log_time for m in found.messages), default=0) if ours else None
+    return found.first if ours else None
 
 
 def _our_channels(found: Salvage) -> list[LogChannel]:
     """Return the channels that we wrote, each of all its topics' messages."""
     by_topic: dict[str, Any] = {each.topic: each for each in found.channels.values()}
-    rows: dict[int, list[Any]] = {}
-    for message in found.messages:
-        rows.setdefault(message.channel_id, []).append(message)
-    channels: list[LogChannel] = []
-    for name in CHANNELS:
-        channel = by_topic.get(topic_of(name))
-        if channel is None or channel.id not in rows:
-            continue
-        names = _names(channel)
-        keys = () if name == "attitude" else value_names(name, names)
-        decoded = [(m.log_time, _values(name, keys, m.data)) for m in rows[channel.id]]
-        full = [(ns, values) for ns, values in decoded if values is not None and ns < LATEST]
-        if full:
-            times, values = zip(*full, strict=True)
-            channels.append(LogChannel(name, np.array(times), np.array(values, float), names))
-    return channels
+    here = ((name, by_topic.get(topic_of(name))) for name in CHANNELS)
+    made = (_our_channel(name, channel, found) for name, channel in here if channel is not None)
+    return [channel for channel in made if len(channel.ns)]
+
+
+def _our_channel(name: str, channel: Any, found: Salvage) -> LogChannel:
+    names = _names(channel)
+    keys = () if name == "attitude" else value_names(name, names)
+    times, values, width = array("q"), array("d"), 4 if name == "attitude" else len(keys)
+    for ns, data in found.kept.of_one(channel.id):
+        found.meter.check(DECODED * len(data))
+        row = _values(name, keys, data)
+        if row is not None and ns < LATEST:
+            times.append(ns)
+            values.extend(row)
+    return LogChannel(name, np.array(times), np.array(values).reshape(len(times), width), names)
 
 
 def _names(channel: Any) -> tuple[str, ...]:
+    """Return the names of masses or devices; none if they are not listed."""
     try:
-        return tuple(map(str, json.loads(channel.metadata.get(NAMES_KEY, "[]"))))
-    except ValueError:
+        named: Any = json.loads(channel.metadata.get(NAMES_KEY, "[]"))
+    except (ValueError, RecursionError):
         return ()
+    return tuple(map(str, cast("list[Any]", named))) if isinstance(named, list) else ()
 
 
 def _values(name: str, keys: tuple[str, ...], data: bytes) -> tuple[float, ...] | None:
@@ -127,7 +149,7 @@ def _values(name: str, keys: tuple[str, ...], data: bytes) -> tuple[float, ...] 
             return turned(FRAME_TRANSFORM, data)[1]
         decoded = _json(data)
         return tuple(float(decoded[key]) for key in keys)
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, OverflowError, TypeError, ValueError):
         return None
 
 
@@ -135,6 +157,6 @@ def _json(data: bytes) -> Any:
     """Return what JSON says if it is an object; else an empty one."""
     try:
         decoded: Any = json.loads(data)
-    except ValueError:
+    except (ValueError, RecursionError):
         return {}
     return cast("dict[str, Any]", decoded) if isinstance(decoded, dict) else {}

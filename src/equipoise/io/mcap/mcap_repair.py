@@ -1,16 +1,17 @@
 """A cut or garbled MCAP file, or one without index, made whole: every record that makes sense."""
 
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
-from equipoise.io.files.atomic_file import write_whole
+from equipoise.io.files.atomic_file import whole_file
 from equipoise.io.files.file_content import opened
 from equipoise.io.formats.clock_units import PER_S
 from equipoise.io.formats.optional_libraries import log_library
+from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.mcap.mcap_recording import time_zero
-from equipoise.io.mcap.mcap_salvage import Salvage, salvaged
+from equipoise.io.mcap.mcap_salvage import Salvage, nothing, salvaged
+from equipoise.io.mcap.mcap_walk import Walk
 from equipoise.model.errors import InputError
 
 WANTED = "a recording to repair (MCAP)"
@@ -32,48 +33,58 @@ class Repaired:
 def repair(path: str | Path, out: str | Path) -> Repaired:
     """Write what is whole of a file to another, with an index; InputError if nothing is.
 
-    A file that is whole and has an index is left as it is.
+    A file that is whole and has an index is left as it is. It is walked through twice: what stands
+    in front of a file that is written is known when all of the other has been seen.
     """
-    with opened(path, WANTED) as content:
-        found = salvaged(content, str(path))
-    if not found.messages:
-        raise InputError(str(path), "no whole message", WANTED)
-    done = _repaired(found)
-    if done.written:
-        write_whole(out, _written(found, str(path)))
+    with (
+        opened(path, WANTED) as content,
+        as_broken(str(path), "MCAP file", "a recording that opens"),
+    ):
+        found = salvaged(content, str(path), nothing)
+        if not found.count:
+            raise InputError(str(path), "no whole message", WANTED)
+        done = _repaired(found)
+        if done.written:
+            with whole_file(out) as temporary, temporary.open("wb") as file:
+                _write(file, found, Walk(content, str(path)))
     return done
 
 
 def _repaired(found: Salvage) -> Repaired:
-    zero, times = time_zero(found), [m.log_time for m in found.messages]
-    return Repaired(found, (max(times) - (min(times) if zero is None else zero)) / PER_S)
+    zero = time_zero(found)
+    return Repaired(found, (found.last - (found.first if zero is None else zero)) / PER_S)
 
 
-def _written(found: Salvage, source: str) -> bytes:
-    """Return the records as a file of their own; every message as it was, to the last bit."""
-    library: Any = log_library("mcap.writer", source)
-    stream = BytesIO()
-    writer = library.Writer(stream)
+def _write(file: BinaryIO, found: Salvage, walk: Walk) -> None:
+    """Write the records as a file of their own; every message as it was, to the last bit."""
+    library: Any = log_library("mcap.writer", found.meter.source)
+    writer = library.Writer(file)
     writer.start(profile=found.header.profile if found.header is not None else "")
     for each in found.metadata:
         writer.add_metadata(each.name, each.metadata)
-    for each in found.attachments:
-        writer.add_attachment(
-            each.create_time, each.log_time, each.name, each.media_type, each.data
-        )
+    channels = _registered(writer, found)
+    for each in walk.records():
+        match type(each).__name__:
+            case "Message" if each.channel_id in channels:
+                times = each.log_time, each.data, each.publish_time
+                writer.add_message(channels[each.channel_id], *times, each.sequence)
+            case "Attachment":
+                times = each.create_time, each.log_time
+                writer.add_attachment(*times, each.name, each.media_type, each.data)
+            case _:
+                pass
+    writer.finish()
+
+
+def _registered(writer: Any, found: Salvage) -> dict[int, int]:
+    """Return the numbers that channels have in the new file, by those in the old one."""
     schemas = {0: 0} | {
         key: writer.register_schema(each.name, each.encoding, each.data)
         for key, each in found.schemas.items()
     }
-    channels = {
+    return {
         key: writer.register_channel(
             each.topic, each.message_encoding, schemas.get(each.schema_id, 0), each.metadata
         )
         for key, each in found.channels.items()
     }
-    for each in found.messages:
-        writer.add_message(
-            channels[each.channel_id], each.log_time, each.data, each.publish_time, each.sequence
-        )
-    writer.finish()
-    return stream.getvalue()

@@ -12,7 +12,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import BinaryIO
 
-from equipoise.io.mcap.mcap_salvage import CODES, HEAD, KINDS, MAGIC
+from equipoise.io.mcap.mcap_records import CODES, HEAD, KINDS, MAGIC
 
 BLOCK = 65536  # bytes that are read, and written, at once (chosen)
 CHUNK_FIELDS = struct.Struct("<QQQII")  # first time, last time, size, checksum, length of a name

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.mcap.mcap_salvage import CODES, MAGIC
+from equipoise.io.mcap.mcap_records import CODES, MAGIC
 from equipoise.io.mcap.mcap_summary import write_summary
 from equipoise.model.version import __version__
 

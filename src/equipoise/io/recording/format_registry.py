@@ -30,13 +30,13 @@ from equipoise.io.logs.dataflash_log import MAGIC as DATAFLASH
 from equipoise.io.logs.dataflash_log import read_dataflash
 from equipoise.io.logs.log_sources import refuse_choice
 from equipoise.io.logs.mavlink_log import read_tlog
-from equipoise.io.logs.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
 from equipoise.io.logs.tlog_capture import is_tlog
 from equipoise.io.logs.ulog_file import MAGIC as ULOG
 from equipoise.io.logs.ulog_file import read_ulog
 from equipoise.io.logs.vectornav_log import is_vectornav, read_vectornav
 from equipoise.io.mcap.mcap_recording import read_mcap, write_mcap
-from equipoise.io.mcap.mcap_salvage import MAGIC as MCAP
+from equipoise.io.mcap.mcap_records import MAGIC as MCAP
+from equipoise.io.mcap.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording

@@ -1,0 +1,1 @@
+"""Bags and messages of ROS 1 and ROS 2."""

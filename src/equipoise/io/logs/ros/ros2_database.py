@@ -1,0 +1,99 @@
+"""The database of a bag of ROS 2 (.db3; public: rosbag2's design pages), read by SQLite itself.
+
+A database may hold more than rows: a view or a computed column makes rows without end, and values
+of any size, of nothing. So the two tables have to be tables, no value is larger than what is left,
+and SQLite is stopped where the time is over.
+"""
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+
+from equipoise.io.files.reading_budget import Meter
+from equipoise.io.logs.log_topics import PART, Topics
+from equipoise.io.logs.ros.ros_messages import is_known
+from equipoise.io.logs.ros.ros_types import DECODED, ros_decoder
+from equipoise.io.logs.unpacking_work import Work
+from equipoise.io.logs.zstd_frames import unframed
+from equipoise.model.errors import InputError
+
+STEPS = 100_000  # of SQLite's machine, between two looks at the time (chosen: some ms)
+LONGEST = 1_000_000_000  # bytes of a value, SQLite's own limit
+TABLES = """SELECT count(*) FROM sqlite_master WHERE type = 'table'
+    AND name IN ('messages', 'topics') AND sql NOT LIKE 'CREATE VIRTUAL%'"""
+TOPICS = "SELECT id, name, type, serialization_format FROM topics ORDER BY id"
+COUNTS = "SELECT topic_id, count(*) FROM messages GROUP BY topic_id"
+ROWS = """SELECT topic_id, timestamp, data FROM messages
+    WHERE topic_id IN (SELECT id FROM topics WHERE type IN ({})) ORDER BY timestamp"""
+Known = dict[int, tuple[str, str]]  # name and type of a topic, by its number
+
+
+def add_database(path: Path, topics: Topics, packed: Work | None = None) -> None:
+    """Add every topic of a database, those of known types with their rows.
+
+    ``packed``: each message is, and what unpacking them may take. InputError if all of it is too
+    much, else raises if it is broken.
+    """
+    meter = topics.meter
+    with closing(connected(path, meter)) as database:
+        try:
+            _add(database, topics, packed)
+        except sqlite3.Error:
+            meter.check(0)  # it may have been stopped
+            raise
+
+
+def connected(path: Path, meter: Meter) -> sqlite3.Connection:
+    """Return a database that is only read, whose values fit and whose queries end in time."""
+    database = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
+    database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, max(min(meter.left, LONGEST), 1))
+    database.set_progress_handler(lambda: _is_over(meter), STEPS)
+    database.text_factory = _text
+    database.execute("PRAGMA trusted_schema = OFF")
+    return database
+
+
+def _text(data: bytes) -> str:
+    return data.decode(errors="replace")
+
+
+def _is_over(meter: Meter) -> bool:
+    try:
+        meter.check(0)
+    except InputError:
+        return True
+    return False
+
+
+def _add(database: sqlite3.Connection, topics: Topics, packed: Work | None) -> None:
+    if database.execute(TABLES).fetchone() != (2,):
+        raise ValueError("no tables of topics and messages")
+    meter, known = topics.meter, _known(database, topics)
+    kinds = sorted({kind for _, kind in known.values()})
+    decoders = {kind: ros_decoder(kind, True, meter.source) for kind in kinds}
+    for number, logged, raw in _rows(database, kinds):
+        if number in known:
+            name, kind = known[number]
+            data = unframed(raw, packed) if packed else raw
+            meter.check(DECODED * len(data))
+            topics.add(name, kind, logged, decoders[kind](data))
+
+
+def _known(database: sqlite3.Connection, topics: Topics) -> Known:
+    """Declare every topic, and return those whose type is known."""
+    counts, known = dict[object, int](database.execute(COUNTS)), Known()
+    for number, name, kind, form in database.execute(TOPICS):
+        topics.meter.take(PART)
+        topics.declare(str(name), str(kind), counts.get(number, 0))
+        if is_known(str(kind)) and form == "cdr":
+            known[number] = str(name), str(kind)
+    return known
+
+
+def _rows(database: sqlite3.Connection, kinds: list[str]) -> Iterator[tuple[int, int, bytes]]:
+    """Yield topic, time (ns) and content of messages of some types."""
+    places = ",".join("?" * len(kinds))
+    for number, logged, data in database.execute(ROWS.format(places), kinds):
+        if isinstance(logged, int) and isinstance(data, bytes):
+            yield number, logged, data

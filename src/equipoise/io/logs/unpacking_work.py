@@ -1,0 +1,22 @@
+"""How much is unpacked of a file, or tried in vain, whether it stays in memory or not."""
+
+from equipoise.io.files.reading_budget import MB, RATIO, Meter, in_mb
+from equipoise.model.errors import InputError
+
+
+class Work:
+    """Counts bytes; InputError once they are more than any recording of that size unpacks to."""
+
+    def __init__(self, meter: Meter, size: int) -> None:
+        self.meter, self._size = meter, size
+        self._most, self._done = max(RATIO * size, meter.left), 0
+
+    def add(self, count: int) -> None:
+        """Count bytes that are about to be unpacked or tried."""
+        self._done += count
+        if self._done > self._most:
+            most, size = in_mb(self._most), in_mb(self._size)
+            found = f"more than {most} unpacked, or tried in vain (the file has {size})"
+            more = f"--max-memory-mb {2 * self._most // MB}"
+            wanted = f"a whole recording; if this is one, {more} lets it take more"
+            raise InputError(self.meter.source, found, wanted)
