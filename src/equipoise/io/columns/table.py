@@ -9,6 +9,7 @@ from equipoise.io.columns.row_faults import FaultyRows
 from equipoise.model.arrays import Bools, Ints, Series1
 
 BLANK = "a blank cell"
+Lines = range | Ints  # of a file: one for each row
 
 
 def no_rows() -> Ints:
@@ -47,7 +48,7 @@ class Table:
     names: tuple[str, ...]  # of the columns
     count: int  # rows
     column: Callable[["Table", str], Numbers]  # InputError for a column that is none of numbers
-    lines: tuple[int, ...] = ()  # the line of the file each row ends on; none: rows are counted
+    lines: Lines = range(0)  # the line of the file each row ends on; none: rows are counted
     notes: tuple[str, ...] = ()  # what reading the table had to leave out
     faulty: tuple[FaultyRows, ...] = ()  # rows that hold nothing: a line that was cut, say
     cell: Callable[[str, int], str] | None = None  # what a cell holds, as text
@@ -60,7 +61,7 @@ class Table:
 
     def place(self, row: int) -> str:
         """Return where a row is, such as 'line 7' or, counted from 1, 'row 7'."""
-        return f"line {self.lines[row]}" if self.lines else f"row {row + 1}"
+        return f"line {self.lines[row]}" if len(self.lines) else f"row {row + 1}"
 
     def numbers(self, name: str) -> Numbers:
         """Return a column; InputError if it is none of numbers."""

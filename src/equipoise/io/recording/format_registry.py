@@ -16,14 +16,14 @@ from equipoise.io.columns.table import Table
 from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.file_content import Content, opened, sha256_of
 from equipoise.io.files.reading_budget import Budget
-from equipoise.io.files.source_file import text_of
 from equipoise.io.formats.compressed import KINDS, ZIP, unpacked
-from equipoise.io.formats.csv_table import csv_text, cut
+from equipoise.io.formats.csv_table import csv_text, table_in
 from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
 from equipoise.io.formats.parquet_table import MAGIC as PARQUET
 from equipoise.io.formats.parquet_table import parquet_bytes, read_parquet
 from equipoise.io.formats.qualisys_header import with_qualisys_header
+from equipoise.io.formats.text_blocks import text_in
 from equipoise.io.formats.vicon_header import with_vicon_header
 from equipoise.io.formats.xlsx_table import is_workbook, read_xlsx
 from equipoise.io.logs.dataflash_log import MAGIC as DATAFLASH
@@ -122,13 +122,13 @@ def _with(*marks: bytes) -> Begins:
 
 def _read_text(path: Path, content: Content, options: ReadOptions) -> tuple[Table, None]:
     refuse_choice(options, str(path), "a table")
-    text, source, layout = text_of(content.whole(), path, WANTED), str(path), options.layout
+    text, source, layout = text_in(content, path, WANTED), str(path), options.layout
     if path.suffix.lower() == ".toml":
         wanted = f"{WANTED}; a testbed is given as --testbed {path}"
         raise InputError(source, "a TOML file, as a testbed is", wanted)
     if layout.skip_rows is None and layout.header:  # else a person has said where rows begin
         text = with_vicon_header(with_qualisys_header(text, source), source)
-    return cut(text, source, layout), None
+    return table_in(text, source, layout, content.meter), None
 
 
 def _read_inside(

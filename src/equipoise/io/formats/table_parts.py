@@ -1,0 +1,180 @@
+"""A table that grows block by block: of each cell no more is kept than its number.
+
+A cell that holds no number is kept as text, for who asks what it is.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.io.columns.row_faults import FaultyRows, RowFault
+from equipoise.io.columns.table import Lines, Numbers, Table, no_rows
+from equipoise.io.files.reading_budget import Meter
+from equipoise.io.formats.cell_numbers import numbers_of
+from equipoise.io.formats.cell_texts import CellTexts
+from equipoise.io.formats.header_rows import Header, filled, place_of
+from equipoise.model.arrays import Ints, Series1
+from equipoise.model.errors import InputError
+
+JOINED = "Each number is cut in two by a decimal comma; the parts were joined."
+NUMBER = 8  # bytes
+WHOLE = 1e15  # below which a whole number prints without a point
+
+
+class NotInPairs(Exception):
+    """A row speaks against joining cells in pairs, which the first rows seemed to need."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Column:
+    """A column's numbers in a block, and the texts of the cells, where some are none."""
+
+    numbers: Numbers  # rows are counted in the block
+    cells: Sequence[str] = ()
+
+
+class TableParts:
+    """The blocks of a table so far."""
+
+    def __init__(self, header: Header, decimal: str, source: str, meter: Meter) -> None:
+        width = len(header.names)
+        self.header, self.decimal, self.count = header, decimal, 0
+        self._source, self._meter, self._in_pairs, self._ended = source, meter, False, False
+        self._values: list[list[Series1]] = [[] for _ in range(width)]
+        self._nan: list[list[Ints]] = [[] for _ in range(width)]
+        self._garbage: list[list[Ints]] = [[] for _ in range(width)]
+        self._texts = [CellTexts() for _ in range(width)]
+        self._lines: list[Lines] = []
+        self._uneven: dict[RowFault, list[Ints]] = {}
+        self._cells: dict[RowFault, int] = {}  # of the first row with such a fault
+
+    def join_pairs(self) -> None:
+        """Join cells in pairs from here on: each number is cut in two by a decimal comma."""
+        self._in_pairs = True
+
+    def add_rows(self, rows: list[list[str]], lines: Lines) -> None:
+        """Add rows of cells; NotInPairs if cells are joined and a row cannot be."""
+        if not rows:
+            return
+        even = self._even(self._joined(rows) if self._in_pairs else rows)
+        columns = (Column(numbers_of(cells, self.decimal), cells) for cells in zip(*even))  # noqa: B905
+        self.add_columns(columns, lines)
+
+    def add_columns(self, columns: Iterable[Column], lines: Lines) -> None:
+        """Add rows of as many columns as the header has."""
+        self._meter.take(NUMBER * len(self._values) * len(lines))
+        for place, column in enumerate(columns):
+            self._add(place, column)
+        self._lines.append(lines)
+        self.count += len(lines)
+
+    def table(self, notes: tuple[str, ...] = ()) -> Table:
+        """Return the table; InputError if it has no rows."""
+        if not self.count:
+            raise InputError(self._source, "a header but no rows", "rows of numbers")
+        lines = _together(self._lines)
+        short = self._without_cut_end(lines)
+        lines, header = lines[: self.count], self.header
+        return Table(
+            self._source,
+            header.names,
+            self.count,
+            lambda _, name: self._numbers(place_of(header, name, self._source)),
+            lines,
+            (*notes, *header.notes, *[JOINED] * self._in_pairs, *short),
+            self._faulty(lines),
+            lambda name, row: self._cell(header.names.index(name), row),
+            header.units,
+        )
+
+    def _add(self, place: int, column: Column) -> None:
+        numbers = column.numbers
+        self._values[place].append(numbers.values)
+        if not len(numbers.nan) and not len(numbers.garbage):
+            return
+        self._nan[place].append(numbers.nan + self.count)
+        self._garbage[place].append(numbers.garbage + self.count)
+        rows = np.union1d(numbers.nan, numbers.garbage)
+        texts = (column.cells[row] for row in rows.tolist())
+        self._meter.take(self._texts[place].add(rows + self.count, texts))
+
+    def _joined(self, rows: list[list[str]]) -> list[list[str]]:
+        """Return rows whose numbers were cut in two as they were before; the last may be cut."""
+        width = len(self._values)
+        if self._ended:
+            raise NotInPairs
+        self._ended = len(rows[-1]) != 2 * width
+        whole = rows[:-1] if self._ended else rows
+        if not all(len(row) == 2 * width for row in whole):
+            raise NotInPairs
+        if not all(part.strip().isdigit() for row in whole for part in row[1::2]):
+            raise NotInPairs
+        joined = [
+            [f"{a.strip()}.{b.strip()}" for a, b in zip(row[::2], row[1::2], strict=True)]
+            for row in whole
+        ]
+        return [*joined, *[rows[-1][: width - 1]] * self._ended]
+
+    def _even(self, rows: list[list[str]]) -> list[list[str]]:
+        """Return rows of equal width; those with cells too few or too many are blank, and faulty."""
+        width = len(self._values)
+        if set(map(len, rows)) == {width}:
+            return rows
+        few = np.array([len(row) < width for row in rows])
+        # Blank cells beyond the header are a separator too many.
+        many = np.array([filled(row[width:]) > 0 for row in rows])
+        for kind, mask in ((RowFault.CUT_SHORT, few), (RowFault.TOO_WIDE, many)):
+            if mask.any():
+                which = np.flatnonzero(mask)
+                self._cells.setdefault(kind, len(rows[which[0]]))
+                self._uneven.setdefault(kind, []).append(which + self.count)
+        blank = [""] * width
+        bad = (few | many).tolist()
+        return [blank if b else row[:width] for row, b in zip(rows, bad, strict=True)]
+
+    def _without_cut_end(self, lines: Lines) -> tuple[str, ...]:
+        """Leave out a last row that was cut short, as where a logger lost power."""
+        short = self._uneven.get(RowFault.CUT_SHORT, [no_rows()])
+        if self.count < 2 or not len(short[-1]) or short[-1][-1] != self.count - 1:
+            return ()
+        short[-1] = short[-1][:-1]
+        self.count -= 1
+        return (f"The last row (line {lines[-1]}) is cut short; it was left out.",)
+
+    def _faulty(self, lines: Lines) -> tuple[FaultyRows, ...]:
+        kinds = [kind for kind in (RowFault.CUT_SHORT, RowFault.TOO_WIDE) if kind in self._uneven]
+        rows = {kind: np.concatenate(self._uneven[kind]) for kind in kinds}
+        return tuple(self._fault(kind, rows[kind], lines) for kind in kinds if len(rows[kind]))
+
+    def _fault(self, kind: RowFault, rows: Ints, lines: Lines) -> FaultyRows:
+        wanted = f"{len(self._values)}, as the header"
+        if kind == RowFault.TOO_WIDE and len(rows) == self.count:
+            wanted += "; are the decimal points commas? Then separate the cells by ';'"
+        where = f"{self._source}, line {lines[int(rows[0])]}"
+        return FaultyRows(kind, rows, where, f"{self._cells[kind]} cells", wanted)
+
+    def _numbers(self, place: int) -> Numbers:
+        """Return a column in one piece; its blocks go."""
+        for blocks in (self._values, self._nan, self._garbage):
+            if len(blocks[place]) > 1:
+                blocks[place] = [np.concatenate(blocks[place])]
+        nan, garbage = (next(iter(each[place]), no_rows()) for each in (self._nan, self._garbage))
+        return Numbers(self._values[place][0][: self.count], nan, garbage)
+
+    def _cell(self, place: int, row: int) -> str:
+        text = self._texts[place].of(row)
+        if text is not None:
+            return text
+        number = float(self._numbers(place).values[row])
+        if np.isnan(number):
+            return ""
+        return str(int(number)) if number == int(number) and abs(number) < WHOLE else repr(number)
+
+
+def _together(parts: list[Lines]) -> Lines:
+    """Return the lines of all blocks, as a range where none between them is left out."""
+    first, last = int(parts[0][0]), int(parts[-1][-1])
+    if last - first + 1 == sum(map(len, parts)):
+        return range(first, last + 1)
+    return np.concatenate([np.array(part, dtype=np.int64) for part in parts])
