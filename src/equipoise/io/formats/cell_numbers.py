@@ -28,7 +28,9 @@ def numbers_of(cells: Sequence[str], decimal: str) -> Numbers:
 
 def _values(cells: Sequence[str], decimal: str) -> Series1:
     try:
-        return np.array([float(cell) if cell else math.nan for cell in cells])
+        if "" in cells:
+            return np.array([float(cell) if cell else math.nan for cell in cells])
+        return np.fromiter(map(float, cells), np.float64, len(cells))
     except ValueError:
         return np.array([_number(cell, decimal) for cell in cells])
 

@@ -72,6 +72,7 @@ class PlainBlocks:
                 arrow.ConvertOptions(
                     column_types=kinds, null_values=[""], strings_can_be_null=True
                 ),
+                memory_pool=import_module("pyarrow").system_memory_pool(),
             )
         except ValueError:
             return None

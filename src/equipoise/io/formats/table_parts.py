@@ -41,7 +41,7 @@ class TableParts:
         width = len(header.names)
         self.header, self.decimal, self.count = header, decimal, 0
         self._source, self._meter, self._in_pairs, self._ended = source, meter, False, False
-        self._values: list[list[Series1]] = [[] for _ in range(width)]
+        self._values: list[Series1] = [np.zeros(0)] * width  # with room for more rows
         self._nan: list[list[Ints]] = [[] for _ in range(width)]
         self._garbage: list[list[Ints]] = [[] for _ in range(width)]
         self._texts = [CellTexts() for _ in range(width)]
@@ -90,7 +90,8 @@ class TableParts:
 
     def _add(self, place: int, column: Column) -> None:
         numbers = column.numbers
-        self._values[place].append(numbers.values)
+        self._values[place] = _with_room(self._values[place], self.count, len(numbers.values))
+        self._values[place][self.count : self.count + len(numbers.values)] = numbers.values
         if not len(numbers.nan) and not len(numbers.garbage):
             return
         self._nan[place].append(numbers.nan + self.count)
@@ -155,21 +156,29 @@ class TableParts:
         return FaultyRows(kind, rows, where, f"{self._cells[kind]} cells", wanted)
 
     def _numbers(self, place: int) -> Numbers:
-        """Return a column in one piece; its blocks go."""
-        for blocks in (self._values, self._nan, self._garbage):
-            if len(blocks[place]) > 1:
-                blocks[place] = [np.concatenate(blocks[place])]
-        nan, garbage = (next(iter(each[place]), no_rows()) for each in (self._nan, self._garbage))
-        return Numbers(self._values[place][0][: self.count], nan, garbage)
+        """Return a column."""
+        nan, garbage = (
+            np.concatenate([no_rows(), *each[place]]) for each in (self._nan, self._garbage)
+        )
+        return Numbers(self._values[place][: self.count], nan, garbage)
 
     def _cell(self, place: int, row: int) -> str:
         text = self._texts[place].of(row)
         if text is not None:
             return text
-        number = float(self._numbers(place).values[row])
+        number = float(self._values[place][row])
         if np.isnan(number):
             return ""
         return str(int(number)) if number == int(number) and abs(number) < WHOLE else repr(number)
+
+
+def _with_room(values: Series1, count: int, more: int) -> Series1:
+    """Return a series with room behind its first numbers; what is not used takes no memory."""
+    if count + more <= len(values):
+        return values
+    wider = np.empty(max(count + more, 2 * count))
+    wider[:count] = values[:count]
+    return wider
 
 
 def _together(parts: list[Lines]) -> Lines:

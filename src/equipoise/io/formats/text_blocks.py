@@ -10,7 +10,7 @@ from equipoise.io.files.source_file import MARKS, decoded, encoding_of
 from equipoise.model.errors import InputError
 
 FIRST = 1 << 16  # bytes of the block that shows what a text is (chosen)
-BLOCK = 1 << 22  # bytes of each of the others (chosen: as rows of cells they take 50 MB)
+BLOCK = 1 << 20  # bytes of each of the others (chosen: as rows of cells they take 10 MB)
 LONGEST = 1 << 20  # bytes of a line, as of a cell (chosen)
 
 

@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import chain, islice
+from operator import itemgetter
 
 import numpy as np
 
@@ -24,6 +25,7 @@ PREFIX = re.compile(r"\[?\d{1,2}:\d{2}:\d{2}([.,]\d+)?(\] ?| ?-> ?|\s+)")
 # As NumPy and MATLAB begin a header; a column %time is one of ROS.
 COMMENT = re.compile(r"\s*(#+\s*|%+\s+)")
 PREFIXED = "A terminal's clock stands before each line; it was left aside."
+FIRST_CELL = itemgetter(0)
 WANTED = "a row of separated cells"
 csv.field_size_limit(1 << 20)  # characters; a cell beyond this is not a table's
 
@@ -177,8 +179,8 @@ class RowCutter:
 
 def _without_blank(rows: list[list[str]], lines: Lines) -> TextRows:
     """Return rows without those that hold nothing."""
-    kept = [bool(row) and (bool(row[0]) or any(map(str.strip, row))) for row in rows]
-    if all(kept):
+    if all(rows) and all(map(FIRST_CELL, rows)):
         return TextRows(rows, lines)
+    kept = [bool(row) and (bool(row[0]) or any(map(str.strip, row))) for row in rows]
     places = np.array(lines, dtype=np.int64)[np.array(kept, dtype=bool)]
     return TextRows([row for row, k in zip(rows, kept, strict=True) if k], places)

@@ -1,5 +1,7 @@
 """Attitude columns to unit quaternions, scalar first, body to a laboratory whose Z is up."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from equipoise.io.columns.axis_permutation import TO_Z_UP, axes_matrix
@@ -14,6 +16,7 @@ from equipoise.maths.attitude import (
     from_matrix,
     multiply,
     normalise,
+    sign_changes,
 )
 from equipoise.model.arrays import Floats, Series1, Series4
 
@@ -23,6 +26,7 @@ SHORTEST_MEAN = 0.5  # chosen: frames spread over more than half a turn have no 
 ROUNDING = 1e-12  # below this nothing is touched, so that our own files come back verbatim
 WORTH_SAYING = 1e-5  # five printed digits
 SINGLE = 2e-7  # what single precision does to the length of a quaternion, twice over
+PART = 1 << 16  # rows that are looked at together (chosen)
 DIGITS = 12  # decimals up to which a column is taken as rounded (chosen: a double has 15)
 
 
@@ -31,18 +35,28 @@ def lengths(channel: Channel) -> Channel | None:
 
     A component rounded to d decimals is off by 10^-d / 2 at most, a length by 10^-d.
     """
-    norm = np.linalg.norm(channel.values, axis=1)
+    norm = _lengths(channel.values)
     if np.abs(norm - 1).max() <= max(10.0 ** -_decimals(channel.values), SINGLE):
         return None
     return Channel(channel.name, channel.t, norm[:, None], channel.rows)
 
 
+def _lengths(values: Floats) -> Series1:
+    return np.concatenate([np.linalg.norm(part, axis=1) for part in _parts(values)])
+
+
 def _decimals(values: Floats) -> int:
     """Return how many decimals the values were printed with."""
     for decimals in range(DIGITS):
-        if np.abs(values - np.round(values, decimals)).max() < ROUNDING:
+        off = (np.abs(part - np.round(part, decimals)).max() for part in _parts(values))
+        if all(each < ROUNDING for each in off):
             return decimals
     return DIGITS
+
+
+def _parts(values: Floats) -> Iterator[Floats]:
+    """Yield the rows, some at a time: whole copies of a long table count."""
+    return (values[at : at + PART] for at in range(0, len(values), PART))
 
 
 def quaternions(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Channel, Notes]:
@@ -56,7 +70,7 @@ def of_unit_length(
     channel: Channel, table: Table, columns: ColumnMap
 ) -> tuple[Channel, list[FaultyRows]]:
     """Return the quaternions whose length is one, as far as rounding and means go."""
-    norm = np.linalg.norm(channel.values, axis=1)
+    norm = _lengths(channel.values)
     least = SHORTEST_MEAN if columns.mean_of_frames else 1 - JUMP
     good = (norm >= least) & (norm <= 1 + JUMP)
     if good.all():
@@ -103,15 +117,15 @@ def _in_our_axes(q: Series4, columns: ColumnMap) -> Series4:
 
 
 def _continuous(q: Series4) -> tuple[Series4, Notes]:
-    mended = continuous(q)
-    flips = int((np.sum(q[1:] * q[:-1], axis=1) < 0).sum())
-    reported = f"attitude: the quaternion changed its sign {flips} times; made continuous."
-    return mended, (reported,) if flips else ()
+    flips = sign_changes(q)
+    count = int(flips.sum())
+    reported = f"attitude: the quaternion changed its sign {count} times; made continuous."
+    return (continuous(q), (reported,)) if count else (q, ())
 
 
 def _unit(channel: Channel, table: Table) -> tuple[Series4, Notes]:
     """Return quaternions of unit length."""
-    norm = np.linalg.norm(channel.values, axis=1)
+    norm = _lengths(channel.values)
     if np.abs(norm - 1).max() < ROUNDING:
         return channel.values, ()
     return normalise(channel.values), _norm_note(norm, channel, table)

@@ -142,7 +142,7 @@ def _without_dead(channel: Channel, columns: Columns, native: bool) -> tuple[Cha
     """
     if channel.name in SCALARS:
         return channel, ()  # what never changes is a fact, not a dead column
-    dead = np.abs(channel.values).max(axis=0) == 0
+    dead = ~channel.values.any(axis=0)
     names = " ".join(n for n, zero in zip(columns.names, dead.tolist(), strict=True) if zero)
     misleads = channel.name == "rate" and not native and bool(dead.any())
     if dead.all() or misleads:

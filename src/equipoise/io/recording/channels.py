@@ -93,14 +93,14 @@ def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, li
     A row of NaN throughout had no reading if another channel has one there; if none has, nothing
     was recorded, which is a fault.
     """
-    table, rows = source.table, source.rows
-    numbers = _numbers(table, columns)
+    rows = source.rows
+    numbers = _numbers(source.table, columns)
     marked = _sentinels(source, name, numbers)
-    values = np.stack([each.values for each in numbers], axis=1)[rows]
-    garbage = _marked(table, [each.garbage for each in numbers])[rows]
-    nan = _marked(table, [each.nan for each in numbers])[rows]
-    full = ~np.isnan(values).any(axis=1)
-    none = np.isnan(values).all(axis=1) & ~garbage  # no reading here
+    blank = [np.isnan(each.values) for each in numbers]
+    garbage = _marked(source.table, [each.garbage for each in numbers])[rows]
+    nan = _marked(source.table, [each.nan for each in numbers])[rows]
+    full = ~np.logical_or.reduce(blank)[rows]
+    none = np.logical_and.reduce(blank)[rows] & ~garbage  # no reading here
     if (none & nan).any():
         none &= ~nan | source.alive()[rows]
     sentinel = marked[rows] & ~none
@@ -113,9 +113,18 @@ def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, li
         if mask.any()
     ]
     found += _marked_rows(source, columns, numbers, sentinel)
-    si = (values[full] - np.array(columns.offset)) * np.array(columns.factor)
-    whole = Channel(name, source.time[rows][full], si, rows[full])
-    return _without_overflow(whole, table, columns, found)
+    kept = rows if full.all() else rows[full]
+    whole = Channel(name, source.time[kept], _si(numbers, columns, kept), kept)
+    return _without_overflow(whole, source.table, columns, found)
+
+
+def _si(numbers: list[Numbers], columns: Columns, rows: Ints) -> Floats:
+    """Return some rows of columns in SI, column by column: whole copies of a long table count."""
+    si = np.empty((len(rows), len(numbers)))
+    offset, factor = (np.resize(each, len(numbers)) for each in (columns.offset, columns.factor))
+    for k, each in enumerate(numbers):
+        si[:, k] = (each.values[rows] - offset[k]) * factor[k]
+    return si
 
 
 def _without_overflow(

@@ -13,7 +13,7 @@ NAMED = 3  # gaps that are named one by one
 
 def without_duplicates(channel: Channel, table: Table) -> tuple[Channel, list[FaultyRows]]:
     """Return a channel with the first row of each time stamp alone."""
-    again = np.append(False, np.diff(channel.t) == 0)
+    again = np.append(False, channel.t[1:] == channel.t[:-1])
     if not again.any():
         return channel, []
     rows, t = channel.rows[again], channel.t[again]
