@@ -1,4 +1,4 @@
-"""A long text, cut block by block and by pyarrow where it is plain, is the same table as a short."""
+"""A long text, cut in blocks and by pyarrow where they are plain, is the table of a short one."""
 
 import sys
 from collections.abc import Iterator

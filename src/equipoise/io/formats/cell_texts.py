@@ -7,8 +7,6 @@ import numpy as np
 
 from equipoise.model.arrays import Ints
 
-TEXT = 4  # bytes that the end of a text takes
-
 
 class CellTexts:
     """The texts of some rows of a column."""
@@ -23,7 +21,7 @@ class CellTexts:
     def add(self, rows: Ints, texts: Iterable[str]) -> int:
         """Keep the texts of rows beyond those so far; return how many bytes that takes."""
         parts = [text.encode(errors="surrogatepass") for text in texts]
-        ends = np.cumsum([len(part) for part in parts]).astype(np.int32)
+        ends = np.cumsum([len(part) for part in parts], dtype=np.int64)
         self._first.append(int(rows[0]))
         self._rows.append(rows)
         self._ends.append(ends)

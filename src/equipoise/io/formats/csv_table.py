@@ -7,6 +7,7 @@ Motive writes several header lines (kind, name, identity, rotation or position) 
 X, Y, Z, W; a name that occurs twice there is distinguished by what stands above it.
 """
 
+import contextlib
 from collections.abc import Iterator, Mapping
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.table import Table
 from equipoise.io.files.reading_budget import Budget, Meter
-from equipoise.io.formats.header_rows import header_of
+from equipoise.io.formats.header_rows import Header, header_of
 from equipoise.io.formats.long_text import PlainBlocks, is_for_arrow
 from equipoise.io.formats.table_parts import NotInPairs, TableParts
 from equipoise.io.formats.text_blocks import Text
@@ -34,17 +35,22 @@ def cut(text: str, source: str, layout: Layout) -> Table:
 def table_in(text: Text, source: str, layout: Layout, meter: Meter) -> Table:
     """Return the table in a text; InputError if it is none, or takes too much."""
     table = _table_in(text, source, layout, meter, in_pairs=True)
-    return table or _table_in(text, source, layout, meter, in_pairs=False)
+    if table is None:  # what the first rows seemed to need a later one speaks against
+        table = _table_in(text, source, layout, meter, in_pairs=False)
+    assert table is not None  # only rows that are joined in pairs end without one
+    return table
 
 
 def table_of(rows: list[list[str]], lines: list[int], source: str, layout: Layout) -> Table:
     """Return the table in rows of cells and their lines, the header among them."""
     found, meter = TextRows(rows, np.array(lines, dtype=np.int64)), Budget().of(source, 0)
-    decimal = layout.decimal or "."
-    try:
-        return _begun(found, decimal, source, layout, meter, in_pairs=True).table()
-    except NotInPairs:
-        return _begun(found, decimal, source, layout, meter, in_pairs=False).table()
+    header = _header(found, source, layout)
+    for in_pairs in (True, False):
+        parts = TableParts(header, layout.decimal or ".", meter, in_pairs)
+        with contextlib.suppress(NotInPairs):
+            parts.add_rows(rows[header.end :], found.lines[header.end :])
+            break
+    return parts.table(source)
 
 
 def csv_text(columns: Mapping[str, Series1]) -> str:
@@ -55,10 +61,8 @@ def csv_text(columns: Mapping[str, Series1]) -> str:
     return "\n".join([",".join(columns), *rows]) + "\n"
 
 
-
-
 def _table_in(
-    text: Text, source: str, layout: Layout, meter: Meter, in_pairs: bool
+    text: Text, source: str, layout: Layout, meter: Meter, *, in_pairs: bool
 ) -> Table | None:
     """Return the table; None if cells were to be joined ``in_pairs`` and a row cannot be."""
     blocks = text.blocks()
@@ -66,16 +70,24 @@ def _table_in(
     writing = writing_of(first.splitlines(), layout)
     cutter = RowCutter(blocks, writing, source)
     found = _with_names(cutter.rows(first), writing.labels)
+    header = _header(found, source, layout)
+    parts = TableParts(header, writing.decimal, meter, in_pairs)
+    width = len(header.names)
+    plain = PlainBlocks(width, writing) if is_for_arrow(text.size, width, writing) else None
     try:
-        parts = _begun(found, writing.decimal, source, layout, meter, in_pairs)
-        width = len(parts.header.names)
-        plain = PlainBlocks(width, writing) if is_for_arrow(text.size, width, writing) else None
+        parts.add_rows(found.rows[header.end :], found.lines[header.end :])
         for block in blocks:
             meter.check(0)
             _add(block, parts, cutter, plain)
-        return parts.table(writing.notes)
     except NotInPairs:
         return None
+    return parts.table(source, writing.notes)
+
+
+def _header(found: TextRows, source: str, layout: Layout) -> Header:
+    if not found.rows:
+        raise InputError(source, "nothing but blank lines", "a header and rows of numbers")
+    return header_of(found.rows, found.lines, source, layout)
 
 
 def _first(blocks: Iterator[str], layout: Layout, meter: Meter) -> str:
@@ -100,21 +112,6 @@ def _with_names(found: TextRows, names: tuple[str, ...]) -> TextRows:
     head = next(k for k, row in enumerate(found.rows) if len(row) == len(names))
     lines = np.insert(np.array(found.lines, dtype=np.int64), head, found.lines[head])
     return TextRows([*found.rows[:head], [*names], *found.rows[head:]], lines)
-
-
-def _begun(
-    found: TextRows, decimal: str, source: str, layout: Layout, meter: Meter, in_pairs: bool
-) -> TableParts:
-    """Return a table of its first rows, the header among them."""
-    if not found.rows:
-        raise InputError(source, "nothing but blank lines", "a header and rows of numbers")
-    header = header_of(found.rows, found.lines, source, layout)
-    body, lines = found.rows[header.end :], found.lines[header.end :]
-    parts = TableParts(header, decimal, source, meter)
-    if in_pairs and decimal != "," and body and len(body[0]) == 2 * len(header.names):
-        parts.join_pairs()
-    parts.add_rows(body, lines)
-    return parts
 
 
 def _add(block: str, parts: TableParts, cutter: RowCutter, plain: PlainBlocks | None) -> None:

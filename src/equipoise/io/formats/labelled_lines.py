@@ -1,7 +1,7 @@
 """Lines that say before each number what it is, ``t:0.01 qw:1.0`` or ``t=0.01, qw=1.0``.
 
-So programs of small boards print for a plotter. They become rows below a header of the names. A line
-that is none, or lacks a name, becomes a row with cells too few.
+So programs of small boards print for a plotter. They become rows below a header of the names. A
+line that is none, or lacks a name, becomes a row with cells too few.
 """
 
 import re

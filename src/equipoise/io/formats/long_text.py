@@ -16,7 +16,7 @@ from equipoise.io.columns.table import Numbers
 from equipoise.io.formats.cell_numbers import numbers_of
 from equipoise.io.formats.table_parts import Column
 from equipoise.io.formats.text_rows import Writing
-from equipoise.model.arrays import Series1
+from equipoise.model.arrays import Bools, Series1
 
 LONG = 8_000_000  # bytes, chosen: pyarrow saves as long of so many as its import takes
 # Neither quotes nor marks of comments, nor what ends a line for Python alone.
@@ -88,21 +88,34 @@ class PlainBlocks:
         if str(column.type) != "string":
             return None
         self._kinds[name] = "string"
-        texts = [cell or "" for cell in column.to_pylist()]
+        texts = tuple(cell or "" for cell in column.to_pylist())
         return Column(numbers_of(texts, self._decimal), texts)
 
 
 def _blank(cells: Any) -> bool:
     """Say whether some row has no cell with anything in it."""
-    blank = [np.asarray(column.is_null()) for column in cells.columns]
-    return bool(np.logical_and.reduce(blank).any())
+    there = [_there(column.chunk(0)) for column in cells.columns]
+    return not bool(np.logical_or.reduce(there).all())
 
 
 def _doubles(column: Any) -> Series1 | None:
     """Return a column's numbers; None if a cell is neither finite nor blank."""
     try:
-        values = np.array(column.cast("float64").to_numpy(), dtype=np.float64)
+        chunk = column.cast("float64").chunk(0)
     except ValueError:
         return None
+    # The way by ``to_numpy`` imports pandas, where that is installed: 0.3 s and 40 MB.
+    begin, end = chunk.offset, chunk.offset + len(chunk)
+    values = np.frombuffer(chunk.buffers()[1], np.float64)[begin:end].copy()
+    values[~_there(chunk)] = np.nan
     missing = int(np.count_nonzero(~np.isfinite(values)))
-    return values if missing == column.null_count else None
+    return values if missing == chunk.null_count else None
+
+
+def _there(chunk: Any) -> Bools:
+    """Say of each cell whether it is not blank."""
+    bits = chunk.buffers()[0]
+    if bits is None:
+        return np.ones(len(chunk), dtype=bool)
+    unpacked = np.unpackbits(np.frombuffer(bits, np.uint8), bitorder="little")
+    return unpacked[chunk.offset : chunk.offset + len(chunk)].astype(bool)

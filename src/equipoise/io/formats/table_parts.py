@@ -3,7 +3,7 @@
 A cell that holds no number is kept as text, for who asks what it is.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from equipoise.io.files.reading_budget import Meter
 from equipoise.io.formats.cell_numbers import numbers_of
 from equipoise.io.formats.cell_texts import CellTexts
 from equipoise.io.formats.header_rows import Header, filled, place_of
-from equipoise.model.arrays import Ints, Series1
+from equipoise.model.arrays import Floats, Ints
 from equipoise.model.errors import InputError
 
 JOINED = "Each number is cut in two by a decimal comma; the parts were joined."
@@ -31,17 +31,18 @@ class Column:
     """A column's numbers in a block, and the texts of the cells, where some are none."""
 
     numbers: Numbers  # rows are counted in the block
-    cells: Sequence[str] = ()
+    cells: tuple[str, ...] = ()
 
 
 class TableParts:
     """The blocks of a table so far."""
 
-    def __init__(self, header: Header, decimal: str, source: str, meter: Meter) -> None:
+    def __init__(self, header: Header, decimal: str, meter: Meter, in_pairs: bool) -> None:
+        """Take whether cells may be joined ``in_pairs``: a decimal comma may have cut numbers."""
         width = len(header.names)
         self.header, self.decimal, self.count = header, decimal, 0
-        self._source, self._meter, self._in_pairs, self._ended = source, meter, False, False
-        self._values: list[Series1] = [np.zeros(0)] * width  # with room for more rows
+        self._meter, self._in_pairs, self._ended = meter, in_pairs and decimal != ",", False
+        self._values: list[Floats] = [np.zeros(0)] * width  # with room for more rows
         self._nan: list[list[Ints]] = [[] for _ in range(width)]
         self._garbage: list[list[Ints]] = [[] for _ in range(width)]
         self._texts = [CellTexts() for _ in range(width)]
@@ -49,14 +50,12 @@ class TableParts:
         self._uneven: dict[RowFault, list[Ints]] = {}
         self._cells: dict[RowFault, int] = {}  # of the first row with such a fault
 
-    def join_pairs(self) -> None:
-        """Join cells in pairs from here on: each number is cut in two by a decimal comma."""
-        self._in_pairs = True
-
     def add_rows(self, rows: list[list[str]], lines: Lines) -> None:
         """Add rows of cells; NotInPairs if cells are joined and a row cannot be."""
         if not rows:
             return
+        if not self.count:
+            self._in_pairs &= len(rows[0]) == 2 * len(self._values)
         even = self._even(self._joined(rows) if self._in_pairs else rows)
         columns = (Column(numbers_of(cells, self.decimal), cells) for cells in zip(*even))  # noqa: B905
         self.add_columns(columns, lines)
@@ -69,21 +68,21 @@ class TableParts:
         self._lines.append(lines)
         self.count += len(lines)
 
-    def table(self, notes: tuple[str, ...] = ()) -> Table:
+    def table(self, source: str, notes: tuple[str, ...] = ()) -> Table:
         """Return the table; InputError if it has no rows."""
         if not self.count:
-            raise InputError(self._source, "a header but no rows", "rows of numbers")
+            raise InputError(source, "a header but no rows", "rows of numbers")
         lines = _together(self._lines)
         short = self._without_cut_end(lines)
         lines, header = lines[: self.count], self.header
         return Table(
-            self._source,
+            source,
             header.names,
             self.count,
-            lambda _, name: self._numbers(place_of(header, name, self._source)),
+            lambda _, name: self._numbers(place_of(header, name, source)),
             lines,
             (*notes, *header.notes, *[JOINED] * self._in_pairs, *short),
-            self._faulty(lines),
+            self._faulty(lines, source),
             lambda name, row: self._cell(header.names.index(name), row),
             header.units,
         )
@@ -97,7 +96,7 @@ class TableParts:
         self._nan[place].append(numbers.nan + self.count)
         self._garbage[place].append(numbers.garbage + self.count)
         rows = np.union1d(numbers.nan, numbers.garbage)
-        texts = (column.cells[row] for row in rows.tolist())
+        texts = [column.cells[int(row)] for row in rows.tolist()]
         self._meter.take(self._texts[place].add(rows + self.count, texts))
 
     def _joined(self, rows: list[list[str]]) -> list[list[str]]:
@@ -118,7 +117,7 @@ class TableParts:
         return [*joined, *[rows[-1][: width - 1]] * self._ended]
 
     def _even(self, rows: list[list[str]]) -> list[list[str]]:
-        """Return rows of equal width; those with cells too few or too many are blank, and faulty."""
+        """Return rows of equal width; those with cells too few or too many are blank."""
         width = len(self._values)
         if set(map(len, rows)) == {width}:
             return rows
@@ -128,7 +127,7 @@ class TableParts:
         for kind, mask in ((RowFault.CUT_SHORT, few), (RowFault.TOO_WIDE, many)):
             if mask.any():
                 which = np.flatnonzero(mask)
-                self._cells.setdefault(kind, len(rows[which[0]]))
+                self._cells.setdefault(kind, len(rows[int(which[0])]))
                 self._uneven.setdefault(kind, []).append(which + self.count)
         blank = [""] * width
         bad = (few | many).tolist()
@@ -143,16 +142,19 @@ class TableParts:
         self.count -= 1
         return (f"The last row (line {lines[-1]}) is cut short; it was left out.",)
 
-    def _faulty(self, lines: Lines) -> tuple[FaultyRows, ...]:
+    def _faulty(self, lines: Lines, source: str) -> tuple[FaultyRows, ...]:
         kinds = [kind for kind in (RowFault.CUT_SHORT, RowFault.TOO_WIDE) if kind in self._uneven]
         rows = {kind: np.concatenate(self._uneven[kind]) for kind in kinds}
-        return tuple(self._fault(kind, rows[kind], lines) for kind in kinds if len(rows[kind]))
+        return tuple(
+            self._fault(kind, rows[kind], f"{source}, line {lines[int(rows[kind][0])]}")
+            for kind in kinds
+            if len(rows[kind])
+        )
 
-    def _fault(self, kind: RowFault, rows: Ints, lines: Lines) -> FaultyRows:
+    def _fault(self, kind: RowFault, rows: Ints, where: str) -> FaultyRows:
         wanted = f"{len(self._values)}, as the header"
         if kind == RowFault.TOO_WIDE and len(rows) == self.count:
             wanted += "; are the decimal points commas? Then separate the cells by ';'"
-        where = f"{self._source}, line {lines[int(rows[0])]}"
         return FaultyRows(kind, rows, where, f"{self._cells[kind]} cells", wanted)
 
     def _numbers(self, place: int) -> Numbers:
@@ -172,7 +174,7 @@ class TableParts:
         return str(int(number)) if number == int(number) and abs(number) < WHOLE else repr(number)
 
 
-def _with_room(values: Series1, count: int, more: int) -> Series1:
+def _with_room(values: Floats, count: int, more: int) -> Floats:
     """Return a series with room behind its first numbers; what is not used takes no memory."""
     if count + more <= len(values):
         return values

@@ -20,6 +20,7 @@ from equipoise.io.recording.channels import Channel, Rows, columns_of, in_body_a
 from equipoise.io.recording.clock import Clock, clock_of
 from equipoise.io.recording.rotation_columns import as_quaternions, of_rotations
 from equipoise.io.recording.time_stamps import gap_notes, without_duplicates
+from equipoise.model.arrays import Bools
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 
@@ -142,7 +143,7 @@ def _without_dead(channel: Channel, columns: Columns, native: bool) -> tuple[Cha
     """
     if channel.name in SCALARS:
         return channel, ()  # what never changes is a fact, not a dead column
-    dead = ~channel.values.any(axis=0)
+    dead: Bools = np.logical_not(np.logical_or.reduce(channel.values != 0, axis=0))
     names = " ".join(n for n, zero in zip(columns.names, dead.tolist(), strict=True) if zero)
     misleads = channel.name == "rate" and not native and bool(dead.any())
     if dead.all() or misleads:
