@@ -36,6 +36,12 @@ def finite(values: Series1, blank: Bools | None = None) -> Numbers:
     return Numbers(clean, np.flatnonzero(nan), infinite)
 
 
+def rows_between(rows: Ints, start: int, stop: int) -> Ints:
+    """Return which of some rows, in order, are in a part of a table, counted from its first."""
+    first, last = np.searchsorted(rows, [start, stop])
+    return rows[first:last] - start
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
     """Named columns of numbers, each row with a place that a person can find.
@@ -54,6 +60,8 @@ class Table:
     cell: Callable[[str, int], str] | None = None  # what a cell holds, as text
     units: tuple[str, ...] = ()  # of the columns, as a row below the names has them
     blank: str = BLANK  # how this kind of file says that there is no reading
+    # Some rows of a column, where they are read without the rest.
+    rows: Callable[[str, int, int], Numbers] | None = None
 
     def __len__(self) -> int:
         """Return the number of rows."""
@@ -66,6 +74,30 @@ class Table:
     def numbers(self, name: str) -> Numbers:
         """Return a column; InputError if it is none of numbers."""
         return self.column(self, name)
+
+    def part(self, start: int, stop: int) -> "Table":
+        """Return the rows from one to before another, without notes on the whole."""
+        cell = self.cell
+        return Table(
+            self.source,
+            self.names,
+            stop - start,
+            lambda _, name: self._rows(name, start, stop),
+            self.lines[start:stop],
+            cell=None if cell is None else lambda name, row: cell(name, start + row),
+            units=self.units,
+            blank=self.blank,
+        )
+
+    def _rows(self, name: str, start: int, stop: int) -> Numbers:
+        if self.rows is not None:
+            return self.rows(name, start, stop)
+        whole = self.numbers(name)
+        return Numbers(
+            whole.values[start:stop],
+            rows_between(whole.nan, start, stop),
+            rows_between(whole.garbage, start, stop),
+        )
 
     def found(self, name: str, row: int) -> str:
         """Return what stands in a cell that holds no finite number, as an error quotes it."""

@@ -8,11 +8,13 @@ X, Y, Z, W; a name that occurs twice there is distinguished by what stands above
 """
 
 import contextlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from equipoise.io.columns.column_map import Layout
+from equipoise.io.columns.column_store import InMemory, Store
 from equipoise.io.columns.table import Table
 from equipoise.io.files.reading_budget import Budget, Meter
 from equipoise.io.formats.header_rows import Header, header_of
@@ -32,13 +34,17 @@ def cut(text: str, source: str, layout: Layout) -> Table:
     return table_in(Text.of(text), source, layout, Budget().of(source, len(text)))
 
 
-def table_in(text: Text, source: str, layout: Layout, meter: Meter) -> Table:
-    """Return the table in a text; InputError if it is none, or takes too much."""
-    table = _table_in(text, source, layout, meter, in_pairs=True)
-    if table is None:  # what the first rows seemed to need a later one speaks against
-        table = _table_in(text, source, layout, meter, in_pairs=False)
-    assert table is not None  # only rows that are joined in pairs end without one
-    return table
+def table_in(
+    text: Text, source: str, layout: Layout, meter: Meter, store: Callable[[], Store] = InMemory
+) -> Table:
+    """Return the table in a text; InputError if it is none, or takes too much.
+
+    ``store`` makes what its numbers are kept in.
+    """
+    for in_pairs in (True, False):  # what the first rows seem to need a later one may refute
+        with contextlib.suppress(NotInPairs):
+            return _table_in(text, source, layout, meter, _Keeping(in_pairs, store()))
+    raise AssertionError(source)
 
 
 def table_of(rows: list[list[str]], lines: list[int], source: str, layout: Layout) -> Table:
@@ -46,11 +52,11 @@ def table_of(rows: list[list[str]], lines: list[int], source: str, layout: Layou
     found, meter = TextRows(rows, np.array(lines, dtype=np.int64)), Budget().of(source, 0)
     header = _header(found, source, layout)
     for in_pairs in (True, False):
-        parts = TableParts(header, layout.decimal or ".", meter, in_pairs)
+        parts = TableParts(header, layout.decimal or ".", meter, in_pairs, InMemory())
         with contextlib.suppress(NotInPairs):
             parts.add_rows(rows[header.end :], found.lines[header.end :])
-            break
-    return parts.table(source)
+            return parts.table(source)
+    raise AssertionError(source)
 
 
 def csv_text(columns: Mapping[str, Series1]) -> str:
@@ -61,27 +67,31 @@ def csv_text(columns: Mapping[str, Series1]) -> str:
     return "\n".join([",".join(columns), *rows]) + "\n"
 
 
-def _table_in(
-    text: Text, source: str, layout: Layout, meter: Meter, *, in_pairs: bool
-) -> Table | None:
-    """Return the table; None if cells were to be joined ``in_pairs`` and a row cannot be."""
+@dataclass(frozen=True, slots=True)
+class _Keeping:
+    """How the cells of a text are kept."""
+
+    in_pairs: bool
+    store: Store
+
+
+def _table_in(text: Text, source: str, layout: Layout, meter: Meter, keeping: _Keeping) -> Table:
+    """Return the table; NotInPairs if cells were to be joined and a row cannot be."""
     blocks = text.blocks()
     first = _first(blocks, layout, meter)
     writing = writing_of(first.splitlines(), layout)
     cutter = RowCutter(blocks, writing, source)
     found = _with_names(cutter.rows(first), writing.labels)
     header = _header(found, source, layout)
-    parts = TableParts(header, writing.decimal, meter, in_pairs)
+    noted = replace(header, notes=(*writing.notes, *header.notes))
+    parts = TableParts(noted, writing.decimal, meter, keeping.in_pairs, keeping.store)
     width = len(header.names)
     plain = PlainBlocks(width, writing) if is_for_arrow(text.size, width, writing) else None
-    try:
-        parts.add_rows(found.rows[header.end :], found.lines[header.end :])
-        for block in blocks:
-            meter.check(0)
-            _add(block, parts, cutter, plain)
-    except NotInPairs:
-        return None
-    return parts.table(source, writing.notes)
+    parts.add_rows(found.rows[header.end :], found.lines[header.end :])
+    for block in blocks:
+        meter.check(0)
+        _add(block, parts, cutter, plain)
+    return parts.table(source)
 
 
 def _header(found: TextRows, source: str, layout: Layout) -> Header:

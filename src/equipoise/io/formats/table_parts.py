@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.io.columns.column_store import NUMBER, Store
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
-from equipoise.io.columns.table import Lines, Numbers, Table, no_rows
+from equipoise.io.columns.table import Lines, Numbers, Table, no_rows, rows_between
 from equipoise.io.files.reading_budget import Meter
 from equipoise.io.formats.cell_numbers import numbers_of
 from equipoise.io.formats.cell_texts import CellTexts
 from equipoise.io.formats.header_rows import Header, filled, place_of
-from equipoise.model.arrays import Floats, Ints
+from equipoise.model.arrays import Ints
 from equipoise.model.errors import InputError
 
 JOINED = "Each number is cut in two by a decimal comma; the parts were joined."
-NUMBER = 8  # bytes
 WHOLE = 1e15  # below which a whole number prints without a point
 
 
@@ -37,12 +37,14 @@ class Column:
 class TableParts:
     """The blocks of a table so far."""
 
-    def __init__(self, header: Header, decimal: str, meter: Meter, in_pairs: bool) -> None:
+    def __init__(
+        self, header: Header, decimal: str, meter: Meter, in_pairs: bool, store: Store
+    ) -> None:
         """Take whether cells may be joined ``in_pairs``: a decimal comma may have cut numbers."""
         width = len(header.names)
         self.header, self.decimal, self.count = header, decimal, 0
         self._meter, self._in_pairs, self._ended = meter, in_pairs and decimal != ",", False
-        self._values: list[Floats] = [np.zeros(0)] * width  # with room for more rows
+        self._width, self._store = width, store
         self._nan: list[list[Ints]] = [[] for _ in range(width)]
         self._garbage: list[list[Ints]] = [[] for _ in range(width)]
         self._texts = [CellTexts() for _ in range(width)]
@@ -55,20 +57,21 @@ class TableParts:
         if not rows:
             return
         if not self.count:
-            self._in_pairs &= len(rows[0]) == 2 * len(self._values)
+            self._in_pairs &= len(rows[0]) == 2 * self._width
         even = self._even(self._joined(rows) if self._in_pairs else rows)
         columns = (Column(numbers_of(cells, self.decimal), cells) for cells in zip(*even))  # noqa: B905
         self.add_columns(columns, lines)
 
     def add_columns(self, columns: Iterable[Column], lines: Lines) -> None:
         """Add rows of as many columns as the header has."""
-        self._meter.take(NUMBER * len(self._values) * len(lines))
+        if self._store.in_memory:
+            self._meter.take(NUMBER * self._width * len(lines))
         for place, column in enumerate(columns):
             self._add(place, column)
         self._lines.append(lines)
         self.count += len(lines)
 
-    def table(self, source: str, notes: tuple[str, ...] = ()) -> Table:
+    def table(self, source: str) -> Table:
         """Return the table; InputError if it has no rows."""
         if not self.count:
             raise InputError(source, "a header but no rows", "rows of numbers")
@@ -79,18 +82,18 @@ class TableParts:
             source,
             header.names,
             self.count,
-            lambda _, name: self._numbers(place_of(header, name, source)),
+            lambda _, name: self._numbers(name, source, 0, self.count),
             lines,
-            (*notes, *header.notes, *[JOINED] * self._in_pairs, *short),
+            (*header.notes, *[JOINED] * self._in_pairs, *short),
             self._faulty(lines, source),
             lambda name, row: self._cell(header.names.index(name), row),
             header.units,
+            rows=lambda name, start, stop: self._numbers(name, source, start, stop),
         )
 
     def _add(self, place: int, column: Column) -> None:
         numbers = column.numbers
-        self._values[place] = _with_room(self._values[place], self.count, len(numbers.values))
-        self._values[place][self.count : self.count + len(numbers.values)] = numbers.values
+        self._store.add(place, self.count, numbers.values)
         if not len(numbers.nan) and not len(numbers.garbage):
             return
         self._nan[place].append(numbers.nan + self.count)
@@ -101,7 +104,7 @@ class TableParts:
 
     def _joined(self, rows: list[list[str]]) -> list[list[str]]:
         """Return rows whose numbers were cut in two as they were before; the last may be cut."""
-        width = len(self._values)
+        width = self._width
         if self._ended:
             raise NotInPairs
         self._ended = len(rows[-1]) != 2 * width
@@ -118,7 +121,7 @@ class TableParts:
 
     def _even(self, rows: list[list[str]]) -> list[list[str]]:
         """Return rows of equal width; those with cells too few or too many are blank."""
-        width = len(self._values)
+        width = self._width
         if set(map(len, rows)) == {width}:
             return rows
         few = np.array([len(row) < width for row in rows])
@@ -152,35 +155,28 @@ class TableParts:
         )
 
     def _fault(self, kind: RowFault, rows: Ints, where: str) -> FaultyRows:
-        wanted = f"{len(self._values)}, as the header"
+        wanted = f"{self._width}, as the header"
         if kind == RowFault.TOO_WIDE and len(rows) == self.count:
             wanted += "; are the decimal points commas? Then separate the cells by ';'"
         return FaultyRows(kind, rows, where, f"{self._cells[kind]} cells", wanted)
 
-    def _numbers(self, place: int) -> Numbers:
-        """Return a column."""
-        nan, garbage = (
-            np.concatenate([no_rows(), *each[place]]) for each in (self._nan, self._garbage)
+    def _numbers(self, name: str, source: str, start: int, stop: int) -> Numbers:
+        """Return some rows of a column; InputError if two columns have its name."""
+        place = place_of(self.header, name, source)
+        return Numbers(
+            self._store.read(place, start, stop),
+            rows_between(np.concatenate([no_rows(), *self._nan[place]]), start, stop),
+            rows_between(np.concatenate([no_rows(), *self._garbage[place]]), start, stop),
         )
-        return Numbers(self._values[place][: self.count], nan, garbage)
 
     def _cell(self, place: int, row: int) -> str:
         text = self._texts[place].of(row)
         if text is not None:
             return text
-        number = float(self._values[place][row])
+        number = float(self._store.read(place, row, row + 1)[0])
         if np.isnan(number):
             return ""
         return str(int(number)) if number == int(number) and abs(number) < WHOLE else repr(number)
-
-
-def _with_room(values: Floats, count: int, more: int) -> Floats:
-    """Return a series with room behind its first numbers; what is not used takes no memory."""
-    if count + more <= len(values):
-        return values
-    wider = np.empty(max(count + more, 2 * count))
-    wider[:count] = values[:count]
-    return wider
 
 
 def _together(parts: list[Lines]) -> Lines:
