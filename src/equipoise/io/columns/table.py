@@ -25,6 +25,14 @@ class Numbers:
     nan: Ints = field(default_factory=no_rows)  # rows whose cell says that it is no number
     garbage: Ints = field(default_factory=no_rows)  # rows whose cell holds something else
 
+    def part(self, start: int, stop: int) -> "Numbers":
+        """Return the rows from one to before another."""
+        return Numbers(
+            self.values[start:stop],
+            rows_between(self.nan, start, stop),
+            rows_between(self.garbage, start, stop),
+        )
+
 
 def finite(values: Series1, blank: Bools | None = None) -> Numbers:
     """Return a column of numbers as they are in memory; where it is ``blank`` nothing is said."""
@@ -82,22 +90,18 @@ class Table:
             self.source,
             self.names,
             stop - start,
-            lambda _, name: self._rows(name, start, stop),
+            lambda _, name: self.rows_of(name, start, stop),
             self.lines[start:stop],
             cell=None if cell is None else lambda name, row: cell(name, start + row),
             units=self.units,
             blank=self.blank,
         )
 
-    def _rows(self, name: str, start: int, stop: int) -> Numbers:
+    def rows_of(self, name: str, start: int, stop: int) -> Numbers:
+        """Return the rows of a column from one to before another."""
         if self.rows is not None:
             return self.rows(name, start, stop)
-        whole = self.numbers(name)
-        return Numbers(
-            whole.values[start:stop],
-            rows_between(whole.nan, start, stop),
-            rows_between(whole.garbage, start, stop),
-        )
+        return self.numbers(name).part(start, stop)
 
     def found(self, name: str, row: int) -> str:
         """Return what stands in a cell that holds no finite number, as an error quotes it."""

@@ -38,12 +38,19 @@ def with_times_as_numbers(table: Table, columns: ColumnMap) -> Table:
         raise InputError(where, f"'{found.strip()}'", _example(columns.time_format))
     start = f"The clock starts at {first}; this is taken as zero."
     notes = (*table.notes, start) if columns.time_format == ISO else table.notes
-    return replace(table, column=_column(table, name, numbers), notes=notes)
+    return _with_times(table, name, numbers, notes)
 
 
-def _column(table: Table, time: str, numbers: Numbers) -> Callable[[Table, str], Numbers]:
-    """Return how the columns of a table are read when its times are numbers."""
-    return lambda _, name: numbers if name == time else table.numbers(name)
+def _with_times(table: Table, time: str, numbers: Numbers, notes: tuple[str, ...]) -> Table:
+    """Return a table whose times are numbers."""
+
+    def column(_: Table, name: str) -> Numbers:
+        return numbers if name == time else table.numbers(name)
+
+    def rows(name: str, start: int, stop: int) -> Numbers:
+        return numbers.part(start, stop) if name == time else table.rows_of(name, start, stop)
+
+    return replace(table, column=column, rows=rows, notes=notes)
 
 
 def _cells(table: Table, name: str) -> Iterator[str]:

@@ -26,6 +26,18 @@ class Text:
         """Return a text in memory, as one block."""
         return cls(lambda: iter([text]), len(text))
 
+    def watched(self, on_progress: Callable[[float], None]) -> "Text":
+        """Return it, which says as its blocks are read what share of it that is."""
+
+        def blocks() -> Iterator[str]:
+            done = 0
+            for block in self.blocks():
+                yield block
+                done += len(block)
+                on_progress(min(done / self.size, 1.0))
+
+        return Text(blocks, self.size)
+
     def lines(self) -> Iterator[str]:
         """Yield its lines."""
         return (line for block in self.blocks() for line in block.splitlines())

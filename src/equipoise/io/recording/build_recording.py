@@ -125,8 +125,12 @@ def _rows(table: Table, columns: ColumnMap, clock: Clock) -> tuple[Rows, Notes]:
     start = float(clock.time[clock.rows[0]])
     if columns.native or abs(start) < EPOCH:
         return Rows(table, columns, clock.time, clock.rows), ()
-    reported = f"The clock starts at {start:.3f} s; this is taken as zero."
-    return Rows(table, columns, clock.time - start, clock.rows), (reported,)
+    return Rows(table, columns, clock.time - start, clock.rows), (zero_note(start),)
+
+
+def zero_note(start: float) -> str:
+    """Say where a clock starts that counts from a date."""
+    return f"The clock starts at {start:.3f} s; this is taken as zero."
 
 
 def _attitude(source: Rows) -> tuple[Found, Channel | None]:
@@ -146,7 +150,11 @@ def _attitude(source: Rows) -> tuple[Found, Channel | None]:
 def check_enough(source: str, recording: Recording) -> None:
     """Raise InputError for a recording of so few rows that nothing follows from them."""
     sensors = (recording.attitude, recording.rate)
-    most = max((len(sensor) for sensor in sensors if sensor is not None), default=0)
+    check_count(source, max((len(each) for each in sensors if each is not None), default=0))
+
+
+def check_count(source: str, most: int) -> None:
+    """Raise InputError if the longest of attitude and rate has too few rows."""
     if most < FEWEST:
         count = f"{most} row{'s' * (most > 1)}"
         found = f"{count} of attitude or rate" if most else "neither attitude nor rate"

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.column_store import OnDisk
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
@@ -23,7 +24,7 @@ from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
 from equipoise.io.formats.parquet_table import MAGIC as PARQUET
 from equipoise.io.formats.parquet_table import parquet_bytes, read_parquet
 from equipoise.io.formats.qualisys_header import with_qualisys_header
-from equipoise.io.formats.text_blocks import text_in
+from equipoise.io.formats.text_blocks import Text, text_in
 from equipoise.io.formats.vicon_header import with_vicon_header
 from equipoise.io.formats.xlsx_table import is_workbook, read_xlsx
 from equipoise.io.logs.dataflash_log import MAGIC as DATAFLASH
@@ -121,14 +122,31 @@ def _with(*marks: bytes) -> Begins:
 
 
 def _read_text(path: Path, content: Content, options: ReadOptions) -> tuple[Table, None]:
+    text = _text(path, content, options)
+    return table_in(text, str(path), options.layout, content.meter), None
+
+
+def table_on_disk(
+    path: Path,
+    content: Content,
+    options: ReadOptions,
+    folder: Path,
+    on_progress: Callable[[float], None],
+) -> Table:
+    """Return the table in a text; its numbers are kept on the disk of a folder."""
+    text = _text(path, content, options).watched(on_progress)
+    return table_in(text, str(path), options.layout, content.meter, lambda: OnDisk(folder))
+
+
+def _text(path: Path, content: Content, options: ReadOptions) -> Text:
     refuse_choice(options, str(path), "a table")
     text, source, layout = text_in(content, path, WANTED), str(path), options.layout
     if path.suffix.lower() == ".toml":
         wanted = f"{WANTED}; a testbed is given as --testbed {path}"
         raise InputError(source, "a TOML file, as a testbed is", wanted)
     if layout.skip_rows is None and layout.header:  # else a person has said where rows begin
-        text = with_vicon_header(with_qualisys_header(text, source), source)
-    return table_in(text, source, layout, content.meter), None
+        return with_vicon_header(with_qualisys_header(text, source), source)
+    return text
 
 
 def _read_inside(
