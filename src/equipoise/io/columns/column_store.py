@@ -3,7 +3,7 @@
 import tempfile
 from bisect import bisect_right
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from equipoise.model.arrays import Floats
 NUMBER = 8  # bytes
 
 
+@runtime_checkable
 class Store(Protocol):
     """The numbers of columns, block after block."""
 
@@ -83,3 +84,20 @@ class OnDisk:
     def close(self) -> None:
         """Let the file go."""
         self._file.close()
+
+
+class Disk:
+    """Stores on the disk of a folder, until it is closed."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder, self._stores = folder, list[OnDisk]()
+
+    def store(self) -> OnDisk:
+        """Return a new one."""
+        self._stores.append(OnDisk(self._folder))
+        return self._stores[-1]
+
+    def close(self) -> None:
+        """Let all of them go."""
+        for store in self._stores:
+            store.close()

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from equipoise.io.columns.column_map import ColumnMap
-from equipoise.io.columns.column_store import OnDisk
+from equipoise.io.columns.column_store import Disk
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
@@ -130,12 +130,12 @@ def table_on_disk(
     path: Path,
     content: Content,
     options: ReadOptions,
-    folder: Path,
+    disk: Disk,
     on_progress: Callable[[float], None],
 ) -> Table:
-    """Return the table in a text; its numbers are kept on the disk of a folder."""
+    """Return the table in a text; its numbers are kept on a disk."""
     text = _text(path, content, options).watched(on_progress)
-    return table_in(text, str(path), options.layout, content.meter, lambda: OnDisk(folder))
+    return table_in(text, str(path), options.layout, content.meter, disk.store)
 
 
 def _text(path: Path, content: Content, options: ReadOptions) -> Text:

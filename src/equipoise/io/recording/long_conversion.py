@@ -14,6 +14,7 @@ from typing import Any, cast
 import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.column_store import Disk
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.row_faults import without_faulty
 from equipoise.io.columns.table import Table
@@ -47,6 +48,7 @@ def is_long(path: Path, out: Path, longest: int = LONG) -> bool:
         return format_of(path, content).name == TEXT
 
 
+@np.errstate(invalid="ignore", over="ignore")  # an error names such a number and its row
 def convert_in_pieces(
     path: Path, out: Path, options: ReadOptions, on_progress: OnProgress, size: int = PIECE
 ) -> Recording:
@@ -54,14 +56,17 @@ def convert_in_pieces(
 
     InputError says what cannot be used; the file is written whole or not at all.
     """
-    folder = out.resolve().parent
-    with content_of(path, options.max_memory) as content, whole_file(out) as temporary:
+    with (
+        content_of(path, options.max_memory) as content,
+        whole_file(out) as temporary,
+        closing(Disk(out.resolve().parent)) as disk,
+    ):
         share: OnProgress = lambda done: on_progress(READ * done)  # noqa: E731
-        table = table_on_disk(path, content, options, folder, share)
+        table = table_on_disk(path, content, options, disk, share)
         columns = columns_for(table, None, options)
         table = with_times_as_numbers(table, columns)
         clock = piece_clock(table, columns, size)
-        facts = facts_of(table, columns, clock, folder)
+        facts = facts_of(table, columns, clock, disk)
         faulty = (*table.faulty, *clock.faulty, *facts.faulty)
         left_out = without_faulty(table.source, len(table), faulty, options.bad_rows, table.place)
         check_count(table.source, facts.most(columns.native))
@@ -132,7 +137,8 @@ class _Pieces:
         else:
             mended, _ = as_quaternions(channel, source.table, self._columns)
         sign = self._sign_after(mended.values[0])
-        self._flips += flips + (sign != self._sign)
+        if facts.columns is self._columns.quaternion:  # others' signs come of the conversion
+            self._flips += flips + (sign != self._sign)
         q = -mended.values if sign < 0 else mended.values
         self._last, self._sign = q[-1], sign * (-1.0) ** flips
         return replace(mended, values=q)

@@ -4,14 +4,13 @@ of a column     the number that stands for no reading; whether it is zero in eve
 of a channel    its faulty rows, its gaps, how far quaternions are off unit length
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap, Columns
-from equipoise.io.columns.column_store import OnDisk
+from equipoise.io.columns.column_store import Disk, OnDisk
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
 from equipoise.io.columns.sentinels import Largest, largest_of
 from equipoise.io.columns.table import Table, no_rows
@@ -52,7 +51,7 @@ class Faults:
         self._first: dict[RowFault, FaultyRows] = {}
         self._rows: dict[RowFault, list[Ints]] = {}
 
-    def add(self, faulty: Iterator[FaultyRows] | tuple[FaultyRows, ...], begin: int) -> None:
+    def add(self, faulty: Iterable[FaultyRows], begin: int) -> None:
         """Add those of a piece that begins at a row."""
         for each in faulty:
             self._first.setdefault(each.fault, each)
@@ -128,8 +127,8 @@ def sentinels_of(table: Table, columns: ColumnMap, size: int) -> dict[str, float
     return {name: each.sentinel for name, each in found.items()}
 
 
-def facts_of(table: Table, columns: ColumnMap, clock: PieceClock, folder: Path) -> Facts:
-    """Return what is known of a table; what is kept of its rows goes to a folder's disk."""
+def facts_of(table: Table, columns: ColumnMap, clock: PieceClock, disk: Disk) -> Facts:
+    """Return what is known of a table; what is kept of its rows goes to a disk."""
     sentinels = sentinels_of(table, columns, max(end - begin for begin, end in clock.pieces))
     groups = [(name, group) for name in CHANNELS if (group := columns_of(columns, name))]
     found = [
@@ -137,7 +136,7 @@ def facts_of(table: Table, columns: ColumnMap, clock: PieceClock, folder: Path) 
             name,
             group,
             np.zeros(len(group.names)),
-            store=OnDisk(folder) if name in SENSED else None,
+            store=disk.store() if name in SENSED else None,
         )
         for name, group in groups
     ]
@@ -159,7 +158,7 @@ def _unsound(facts: ChannelFacts, native: bool) -> tuple[FaultyRows, ...]:
 def _add(facts: ChannelFacts, source: Rows, begin: int) -> None:
     """Add what a piece shows of a channel."""
     channel, faulty = read_channel(source, facts.name, facts.columns)
-    facts.faulty.add(tuple(faulty), begin)
+    facts.faulty.add(faulty, begin)
     facts.read += len(channel)
     if not len(channel):
         return

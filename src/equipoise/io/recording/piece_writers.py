@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from equipoise.model.arrays import Series1
 from equipoise.model.recording import CHANNELS, Recording, join, rows_between
 
 
+@runtime_checkable
 class PieceWriter(Protocol):
     """A file that grows."""
 
