@@ -27,7 +27,7 @@ MAP = ColumnMap(
     time=(Columns(("t",)),),
     quaternion=Columns(("qw", "qx", "qy", "qz")),
     rate=Columns(("gx", "gy", "gz"), np.pi / 180, offset=0.01),
-    field=Columns(("bx", "by", "bz"), axes=("x", "-z", "y")),
+    field=Columns(("bx", "by", "bz"), 10.0, axes=("x", "-z", "y")),
     masses=(NamedColumn("x1", "m", 1e-3),),
     body=("-y", "x", "z"),
     lab_up="y",
