@@ -108,9 +108,8 @@ class _Pieces:
 
     def notes(self) -> tuple[str, ...]:
         """Return what was set right of the channels, once all pieces are there."""
-        notes = self._facts.notes
-        signs = {"attitude": flip_note(self._flips)}
-        return tuple(note for name in notes for note in (*notes[name], *signs.get(name, ())))
+        facts = self._facts
+        return (*facts.of_attitude, *flip_note(self._flips), *facts.of_others)
 
     def _recording(self, channels: dict[str, Samples]) -> Recording:
         columns, given = self._columns, cast("dict[str, Any]", channels)

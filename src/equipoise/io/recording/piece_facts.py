@@ -99,7 +99,8 @@ class Facts:
 
     channels: tuple[ChannelFacts, ...]
     sentinels: dict[str, float | None]
-    notes: dict[str, Notes]  # on channels
+    of_attitude: Notes  # but for the signs of its quaternions
+    of_others: Notes  # on the other channels
     gaps: Notes
     faulty: tuple[FaultyRows, ...]
 
@@ -145,10 +146,15 @@ def facts_of(table: Table, columns: ColumnMap, clock: PieceClock, disk: Disk) ->
         for each in found:
             _add(each, rows, piece[0])
     native = columns.native
-    notes = {each.name: _notes(each, table, columns) for each in found}
+    attitude, others = (
+        tuple(
+            n for e in found if (e.name == "attitude") == which for n in _notes(e, table, columns)
+        )
+        for which in (True, False)
+    )
     gaps = tuple(note for each in found if each.is_there(native) for note in _gaps(each))
     faulty = [f for e in found for f in (*e.faulty.all(), *_unsound(e, native))]
-    return Facts(tuple(found), sentinels, notes, gaps, tuple(faulty))
+    return Facts(tuple(found), sentinels, attitude, others, gaps, tuple(faulty))
 
 
 def _unsound(facts: ChannelFacts, native: bool) -> tuple[FaultyRows, ...]:
