@@ -42,7 +42,8 @@ OnProgress = Callable[[float], None]
 
 def is_long(path: Path, out: Path, longest: int = LONG) -> bool:
     """Say whether a file is a long text, to be written in a format that grows by pieces."""
-    if out.suffix.lower() not in WRITTEN or not path.is_file() or path.stat().st_size < longest:
+    grows = out.suffix.lower() in WRITTEN and (out.is_file() or not out.exists())
+    if not grows or not path.is_file() or path.stat().st_size < longest:
         return False
     with content_of(path) as content:
         return format_of(path, content).name == TEXT
