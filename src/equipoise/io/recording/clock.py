@@ -66,7 +66,7 @@ def _unwrapped(
 ) -> tuple[Series1, Notes]:
     """Return a clock that goes on where its counter began anew."""
     wrapped = wraps(time[timed], float(np.min(columns.time[0].factor)))
-    whole = time.copy()
+    whole = time.copy() if wrapped else time
     notes: list[str] = []
     for place, length in wrapped:
         whole[timed[place:]] += length
