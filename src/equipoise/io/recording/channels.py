@@ -132,7 +132,9 @@ def _si(numbers: list[Numbers], columns: Columns, rows: Ints) -> Floats:
     si = np.empty((len(rows), len(numbers)))
     offset, factor = (np.resize(each, len(numbers)) for each in (columns.offset, columns.factor))
     for k, each in enumerate(numbers):
-        si[:, k] = (each.values[rows] - offset[k]) * factor[k]
+        values = each.values if len(rows) == len(each.values) else each.values[rows]
+        np.subtract(values, offset[k], out=si[:, k])
+    si *= factor
     return si
 
 
