@@ -5,7 +5,7 @@ Every function takes one quaternion or a series of them along the first axis.
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Quaternion, Series4, Vector3
+from equipoise.model.arrays import Bools, Floats, Quaternion, Series4, Vector3
 
 
 def normalise(q: Floats) -> Floats:
@@ -87,9 +87,14 @@ def difference(q: Floats, reference: Floats) -> Floats:
     return logarithm(multiply(conjugate(reference), q))
 
 
+def sign_changes(q: Series4) -> Bools:
+    """Say of each attitude but the first whether its sign is not that of the one before."""
+    return np.einsum("ij,ij->i", q[1:], q[:-1]) < 0
+
+
 def continuous(q: Series4) -> Series4:
     """Return the same attitudes with signs chosen so that neighbours agree."""
-    flips = np.sum(q[1:] * q[:-1], axis=1) < 0
+    flips = sign_changes(q)
     signs = np.where(np.cumsum(flips) % 2 == 1, -1.0, 1.0)
     return q * np.concatenate([[1.0], signs])[:, None]
 

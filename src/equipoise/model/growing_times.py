@@ -1,5 +1,6 @@
 """Times that ought to grow: where a counter began anew, and the longest run that does not fall."""
 
+from array import array
 from bisect import bisect_right
 
 import numpy as np
@@ -10,6 +11,7 @@ from equipoise.model.units import US
 LATE = 20.0  # usual steps that a counter may have gone on by when it is seen again (chosen)
 BITS = (16, 32)  # of counters, in the column's unit
 PERIODS = (2**32 * US, 86_400.0, 43_200.0, 604_800.0)  # s: micros(), a day, its half, a week
+PART = 1 << 16  # times that are Python's numbers at once (chosen)
 
 
 def wraps(t: Series1, unit: float) -> list[tuple[int, float]]:
@@ -29,15 +31,20 @@ def wraps(t: Series1, unit: float) -> list[tuple[int, float]]:
 
 def longest_rising(t: Series1) -> Ints:
     """Return the places of the longest subsequence that does not fall, by patience sorting."""
-    ends: list[float] = []  # of the best run of each length, and where that is
-    places: list[int] = []
+    ends = array("d")  # of the best run of each length
+    places = array("q")  # where that is
     before = np.full(len(t), -1, dtype=np.int64)
-    for k, value in enumerate(t.tolist()):
-        length = bisect_right(ends, value)
+    values = (x for at in range(0, len(t), PART) for x in t[at : at + PART].tolist())
+    for k, value in enumerate(values):
+        length = len(ends) if not ends or value >= ends[-1] else bisect_right(ends, value)
         before[k] = places[length - 1] if length else -1
-        ends[length : length + 1] = [value]
-        places[length : length + 1] = [k]
-    kept: list[int] = [places[-1]]
-    while before[kept[-1]] >= 0:
-        kept.append(int(before[kept[-1]]))
-    return np.array(kept[::-1], dtype=np.int64)
+        if length == len(ends):
+            ends.append(value)
+            places.append(k)
+        else:
+            ends[length], places[length] = value, k
+    kept = np.empty(len(ends), dtype=np.int64)
+    place = places[-1]
+    for k in reversed(range(len(kept))):
+        kept[k], place = place, int(before[place])
+    return kept

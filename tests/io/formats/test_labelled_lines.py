@@ -29,7 +29,7 @@ def test_names_before_numbers_become_the_header(form) -> None:
     table = cut(lines(form), "run.txt", Layout())
     assert table.names == ("t", "qw")
     assert list(zip(table.numbers("t").values, table.numbers("qw").values, strict=True)) == ROWS
-    assert table.lines == (1, 2, 3)
+    assert list(table.lines) == [1, 2, 3]
 
 
 def test_lines_may_have_another_order_and_words_between() -> None:

@@ -1,6 +1,7 @@
-"""A long plain text, cut by pyarrow, is the same table as one cut row by row."""
+"""A long text, cut in blocks and by pyarrow where they are plain, is the table of a short one."""
 
 import sys
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -9,9 +10,10 @@ from hypothesis import strategies as st
 
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.table import Table
-from equipoise.io.formats import csv_table
-from equipoise.io.formats.csv_table import cut, row_by_row
-from equipoise.io.formats.long_text import FIRST_LINES, plain_table
+from equipoise.io.files.reading_budget import Budget
+from equipoise.io.formats.csv_table import FIRST_LINES, cut, table_in
+from equipoise.io.formats.long_text import LONG, PlainBlocks
+from equipoise.io.formats.text_blocks import Text
 from equipoise.model.errors import InputError
 from tests.support.thorough import count
 
@@ -59,11 +61,20 @@ layouts = st.builds(
 )
 
 
+def in_blocks(text: str, least: int) -> Iterator[str]:
+    """Yield a text in blocks of whole lines, each of so many characters at least."""
+    begin = 0
+    while begin < len(text):
+        end = text.find("\n", begin + least) + 1 or len(text)
+        yield text[begin:end]
+        begin = end
+
+
 def contents(table: Table) -> dict[str, object]:
     """Return all that a table holds, in a form that can be compared to the last bit."""
     return {
         "head": (table.source, table.names, table.units, table.blank, len(table)),
-        "lines": (table.lines, table.notes),
+        "lines": (list(table.lines), table.notes),
         "faulty": [(f.fault, f.rows.tolist(), f.where, f.found, f.wanted) for f in table.faulty],
         "columns": [column(table, name) for name in table.names],
         "cells": [
@@ -84,91 +95,128 @@ def column(table: Table, name: str) -> object:
 
 
 def result(text: str, layout: Layout) -> object:
-    """Return the table that a text is row by row, or the sentence why it is none."""
+    """Return the table that a text is in one block, or the sentence why it is none."""
     try:
-        return contents(row_by_row(text, "a.csv", layout))
+        return contents(cut(text, "a.csv", layout))
     except InputError as error:
         return str(error)
 
 
-@settings(max_examples=count(300, 40), deadline=None)
-@given(texts(clean=True))
-def test_a_plain_text_is_the_same_table(text):
-    plain = plain_table(text, "a.csv", AS_IT_IS)
-    assert plain is not None
-    assert contents(plain) == result(text, AS_IT_IS)
-
-
-@settings(max_examples=count(3000, 150), deadline=None)
-@given(texts(clean=False), st.one_of(st.just(AS_IT_IS), layouts))
-def test_any_text_is_the_same_table_or_is_left_to_the_rules(text, layout):
-    plain = plain_table(text, "a.csv", layout)
-    assert plain is None or contents(plain) == result(text, layout)
-
-
-@pytest.mark.parametrize("odd", ODD_LINES)
-def test_a_line_that_is_not_plain_leaves_the_text_to_the_rules(odd):
-    rows = ["a,b,c", *["1,2,3"] * ROWS]
-    assert plain_table("\n".join([*rows, odd, *rows[1:]]), "a.csv", AS_IT_IS) is None
-
-
-@pytest.mark.parametrize("word", WORDS)
-def test_a_cell_that_is_no_number_spoils_its_own_column_alone(word):
-    shown = f'"{word}"' if "," in word else word
-    text = "\n".join(["a,b,c", *["1,2,3"] * ROWS, f"1,{shown},3", "1,2,3"])
-    table = plain_table(text, "a.csv", AS_IT_IS)
-    assert (table is None) == ("," in word)
-    assert table is None or contents(table) == result(text, AS_IT_IS)
-
-
-@pytest.mark.parametrize("line", PLAIN_LINES)
-def test_a_line_with_all_its_cells_is_plain(line):
-    rows = ["a,b,c", *["1,2,3"] * ROWS]
-    text = "\n".join([*rows, line, *rows[1:]])
-    table = plain_table(text, "a.csv", AS_IT_IS)
-    assert table is not None
-    assert contents(table) == result(text, AS_IT_IS)
-
-
-def test_a_clock_before_each_line_leaves_the_text_to_the_rules():
-    lines = ["a,b", *["1,2"] * ROWS]
-    text = "\n".join(f"14:11:40.12{k % 10} -> {line}" for k, line in enumerate(lines))
-    assert row_by_row(text, "a.csv", AS_IT_IS).names == ("a", "b")
-    assert plain_table(text, "a.csv", AS_IT_IS) is None
-
-
-def test_a_short_text_is_left_to_the_rules():
-    assert plain_table("a,b\n1,2\n3,4\n", "a.csv", AS_IT_IS) is None
-    assert plain_table("", "a.csv", AS_IT_IS) is None
+def long_result(text: str, layout: Layout, least: int) -> object:
+    """Return what a text is in blocks, as one so long that pyarrow cuts those that are plain."""
+    made = Text(lambda: in_blocks(text, least), LONG + 1)
+    try:
+        return contents(table_in(made, "a.csv", layout, Budget().of("a.csv", LONG)))
+    except InputError as error:
+        return str(error)
 
 
 @pytest.fixture
-def long_text(monkeypatch) -> str:
-    """Return a table that is longer than what is read row by row, here a short one."""
-    text = "\n".join(["t,a,b", *[f"{0.001 * k!r},{0.1 * k!r},{-0.7 * k!r}" for k in range(ROWS)]])
-    monkeypatch.setattr(csv_table, "LONG", len(text) - 100)
-    return text
+def plain(monkeypatch) -> list[bool]:
+    """Return, of each block since, whether pyarrow has cut it."""
+    found: list[bool] = []
+    columns = PlainBlocks.columns
+
+    def noted(self: PlainBlocks, block: str) -> object:
+        made = columns(self, block)
+        found.append(made is not None)
+        return made
+
+    monkeypatch.setattr(PlainBlocks, "columns", noted)
+    return found
 
 
-def test_a_long_text_is_not_cut_row_by_row(long_text, monkeypatch):
-    whole = row_by_row(long_text, "a.csv", AS_IT_IS)
-    monkeypatch.setattr(csv_table, "row_by_row", None)  # nobody calls it
-    assert contents(cut(long_text, "a.csv", AS_IT_IS)) == contents(whole)
+@settings(max_examples=count(300, 40), deadline=None)
+@given(texts(clean=True), st.integers(0, 3000))
+def test_a_plain_text_is_the_same_table(text, least):
+    assert long_result(text, AS_IT_IS, least) == result(text, AS_IT_IS)
 
 
-def test_without_pyarrow_a_long_text_is_cut_row_by_row(long_text, monkeypatch):
-    monkeypatch.setitem(sys.modules, "pyarrow.csv", None)
-    assert plain_table(long_text, "a.csv", AS_IT_IS) is None
-    assert len(cut(long_text, "a.csv", AS_IT_IS)) == ROWS
+@settings(max_examples=count(3000, 150), deadline=None)
+@given(texts(clean=False), st.one_of(st.just(AS_IT_IS), layouts), st.integers(0, 3000))
+def test_any_text_is_the_same_table(text, layout, least):
+    assert long_result(text, layout, least) == result(text, layout)
 
 
-def test_a_fault_in_a_long_text_keeps_its_line(long_text):
-    lines = long_text.splitlines()
-    lines[160] = "7.0"
-    (fault,) = cut("\n".join(lines), "a.csv", AS_IT_IS).faulty
-    assert fault.where == "a.csv, line 161"
-    lines[160] = "7.0,seven,1.0"
-    table = cut("\n".join(lines), "a.csv", AS_IT_IS)
+@pytest.mark.parametrize("odd", ODD_LINES)
+def test_a_block_with_a_line_that_is_not_plain_is_left_to_the_rules(odd, plain):
+    rows = ["a,b,c", *["1,2,3"] * 4 * ROWS]
+    text = "\n".join([*rows, odd, *rows[1:]])
+    assert long_result(text, AS_IT_IS, 6 * ROWS) == result(text, AS_IT_IS)
+    assert plain.count(False) == 1
+    assert plain.count(True) >= 4
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_a_cell_that_is_no_number_is_read_by_the_rules(word, plain):
+    shown = f'"{word}"' if "," in word else word
+    text = "\n".join(["a,b,c", *["1,2,3"] * ROWS, f"1,{shown},3", "1,2,3"])
+    assert long_result(text, AS_IT_IS, 6 * ROWS - 60) == result(text, AS_IT_IS)
+    assert plain == ["," not in word]
+
+
+@pytest.mark.parametrize("line", PLAIN_LINES)
+def test_a_line_with_all_its_cells_is_plain(line, plain):
+    rows = ["a,b,c", *["1,2,3"] * ROWS]
+    text = "\n".join([*rows, line, *rows[1:]])
+    assert long_result(text, AS_IT_IS, 6 * ROWS - 60) == result(text, AS_IT_IS)
+    assert all(plain)
+
+
+def test_a_row_in_quotes_goes_on_into_the_next_block():
+    rows = ["a,b,c", *["1,2,3"] * ROWS]
+    text = "\n".join([*rows, '1,"two', "and", *["more"] * ROWS, 'lines",3', *rows[1:]])
+    table = cut(text, "a.csv", AS_IT_IS)
+    assert long_result(text, AS_IT_IS, 100) == contents(table)
+    assert table.place(ROWS) == f"line {2 * ROWS + 4}"
+
+
+def test_cells_that_seem_cut_in_two_are_not_joined_where_a_later_row_cannot_be():
+    rows = ["a,b", *["1,5,2,25"] * ROWS]
+    last = "\n".join([*rows, "1,5,2,25,3", *rows[1:]])
+    joined = cut("\n".join(rows), "a.csv", AS_IT_IS)
+    assert joined.numbers("a").values.tolist() == [1.5] * ROWS
+    assert long_result("\n".join(rows), AS_IT_IS, 100) == contents(joined)
+    assert long_result(last, AS_IT_IS, 100) == result(last, AS_IT_IS)
+    (fault,) = cut(last, "a.csv", AS_IT_IS).faulty
+    assert len(fault.rows) == 2 * ROWS + 1
+
+
+@pytest.mark.parametrize("least", [1, 50, 10_000])
+def test_a_last_row_that_is_cut_short_is_left_out(least):
+    text = "\n".join(["a,b", *["1,2"] * ROWS, "3"])
+    table = cut(text, "a.csv", AS_IT_IS)
+    assert len(table) == ROWS
+    assert table.notes == (f"The last row (line {ROWS + 2}) is cut short; it was left out.",)
+    assert long_result(text, AS_IT_IS, least) == contents(table)
+
+
+def test_a_clock_before_each_line_leaves_the_text_to_the_rules(plain):
+    lines = ["a,b", *["1,2"] * ROWS]
+    text = "\n".join(f"14:11:40.12{k % 10} -> {line}" for k, line in enumerate(lines))
+    assert cut(text, "a.csv", AS_IT_IS).names == ("a", "b")
+    assert long_result(text, AS_IT_IS, 1000) == result(text, AS_IT_IS)
+    assert not plain
+
+
+def test_a_short_text_is_left_to_the_rules(plain):
+    assert cut("\n".join(["a,b", *["1,2"] * ROWS]), "a.csv", AS_IT_IS).count == ROWS
+    assert not plain
+
+
+def test_without_pyarrow_a_long_text_is_left_to_the_rules(plain, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    text = "\n".join(["t,a", *[f"{k},{0.1 * k!r}" for k in range(ROWS)]])
+    assert long_result(text, AS_IT_IS, 1000) == result(text, AS_IT_IS)
+    assert not plain
+
+
+def test_a_fault_in_a_later_block_keeps_its_line_and_its_text():
+    lines = ["t,a,b", *[f"{0.001 * k!r},{0.1 * k!r},{-0.7 * k!r}" for k in range(ROWS)]]
+    lines[160], lines[165] = "7.0", "7.0,seven,1.0"
+    text = Text(lambda: in_blocks("\n".join(lines), 100), LONG + 1)
+    table = table_in(text, "a.csv", AS_IT_IS, Budget().of("a.csv", LONG))
+    assert table.faulty[0].where == "a.csv, line 161"
     (row,) = table.numbers("a").garbage.tolist()
-    assert table.place(row) == "line 161"
+    assert table.place(row) == "line 166"
     assert table.found("a", row) == "'seven'"

@@ -68,22 +68,39 @@ def convert(
     from equipoise.assessment.plausibility.unread_inputs import unread_findings
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.format_registry import format_to_write
-    from equipoise.io.recording.recording_file import write_recording
+    from equipoise.io.recording.long_conversion import is_long
     from equipoise.model.errors import InputError
 
     format_to_write(out)  # refuses a suffix before anything is read
     check_writable(out)
     if captured.driver is not None:
-        recording = _replayed(file, captured.driver, captured, reading)
+        recording = _written(_replayed(file, captured.driver, captured, reading), out)
     elif captured != NOT_CAPTURED:
         raise InputError("--as", "nothing", "the driver of the sensor whose bytes the file holds")
+    elif reading.from_s is None and reading.to_s is None and is_long(Path(file), out):
+        recording = _in_pieces(file, out, reading)
     else:
-        recording = recording_of(file, reading)
-    write_recording(recording, out)
+        recording = _written(recording_of(file, reading), out)
     driven = (each.sentence for each in unread_findings(recording.unread))
     show(items((*recording.notes, *recording.gaps, *driven), "quiet"))
     show_paths([out])
     return 0
+
+
+def _written(recording: "Recording", out: Path) -> "Recording":
+    from equipoise.io.recording.recording_file import write_recording
+
+    write_recording(recording, out)
+    return recording
+
+
+def _in_pieces(file: str, out: Path, reading: Reading) -> "Recording":
+    """Write a long table piece by piece, and return what is said of it, without rows."""
+    from equipoise.app.arguments.inputs import read_options
+    from equipoise.io.recording.long_conversion import convert_in_pieces
+
+    with counted("converting") as on_progress:
+        return convert_in_pieces(Path(file), out, read_options(reading, "--"), on_progress)
 
 
 def _replayed(file: str, driver: str, captured: Captured, reading: Reading) -> "Recording":

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from datetime import UTC, datetime
 
@@ -27,25 +27,39 @@ def with_times_as_numbers(table: Table, columns: ColumnMap) -> Table:
     name = columns.time[0].names[0]
     if table.cell is None or name not in table.names:
         return table
-    cells = [table.cell(name, row).strip() for row in range(len(table))]
-    read = _seconds_of_day if columns.time_format != ISO else _since(_first(cells))
-    values = np.array([read(cell) for cell in cells], dtype=np.float64)
-    filled = np.array([bool(cell) for cell in cells], dtype=bool)
-    numbers = Numbers(values, garbage=np.flatnonzero(np.isnan(values) & filled))
-    if np.isnan(values).all():
-        where, found = f"{table.source}, {table.place(0)}, column '{name}'", f"'{cells[0]}'"
-        raise InputError(where, found, _example(columns.time_format))
-    start = f"The clock starts at {_first(cells)}; this is taken as zero."
+    first = _first(_cells(table, name))
+    read = _seconds_of_day if columns.time_format != ISO else _since(first)
+    values = np.fromiter(map(read, _cells(table, name)), np.float64, len(table))
+    none = np.flatnonzero(np.isnan(values))
+    garbage = [row for row in none.tolist() if table.cell(name, row).strip()]
+    numbers = Numbers(values, garbage=np.array(garbage, dtype=np.int64))
+    if len(none) == len(values):
+        where, found = f"{table.source}, {table.place(0)}, column '{name}'", table.cell(name, 0)
+        raise InputError(where, f"'{found.strip()}'", _example(columns.time_format))
+    start = f"The clock starts at {first}; this is taken as zero."
     notes = (*table.notes, start) if columns.time_format == ISO else table.notes
-    return replace(table, column=_column(table, name, numbers), notes=notes)
+    return _with_times(table, name, numbers, notes)
 
 
-def _column(table: Table, time: str, numbers: Numbers) -> Callable[[Table, str], Numbers]:
-    """Return how the columns of a table are read when its times are numbers."""
-    return lambda _, name: numbers if name == time else table.numbers(name)
+def _with_times(table: Table, time: str, numbers: Numbers, notes: tuple[str, ...]) -> Table:
+    """Return a table whose times are numbers."""
+
+    def column(_: Table, name: str) -> Numbers:
+        return numbers if name == time else table.numbers(name)
+
+    def rows(name: str, start: int, stop: int) -> Numbers:
+        return numbers.part(start, stop) if name == time else table.rows_of(name, start, stop)
+
+    return replace(table, column=column, rows=rows, notes=notes)
 
 
-def _first(cells: list[str]) -> datetime | None:
+def _cells(table: Table, name: str) -> Iterator[str]:
+    """Yield the texts of a column's cells."""
+    assert table.cell is not None  # the caller has looked
+    return (table.cell(name, row).strip() for row in range(len(table)))
+
+
+def _first(cells: Iterator[str]) -> datetime | None:
     return next((date for date in map(_date, cells) if date is not None), None)
 
 

@@ -74,9 +74,19 @@ def text_of(content: bytes, path: str | Path, wanted: str) -> str:
 
     InputError says what the bytes are if they are no text.
     """
-    encoding = _encoding(content)
-    if encoding == "utf-8" and _is_binary(content):
-        raise InputError(str(path), binary_text(content), wanted)
+    return decoded(content, encoding_of(content, path, wanted))
+
+
+def encoding_of(beginning: bytes, path: str | Path, wanted: str) -> str:
+    """Return the encoding of a text by its first bytes; InputError if they are no text's."""
+    encoding = _encoding(beginning)
+    if encoding == "utf-8" and _is_binary(beginning):
+        raise InputError(str(path), binary_text(beginning), wanted)
+    return encoding
+
+
+def decoded(content: bytes, encoding: str) -> str:
+    """Return the bytes as text in an encoding; those that are not UTF-8 are read as Latin-1."""
     if encoding.startswith("utf-16"):
         return content.decode(encoding, errors="replace")  # a cut file ends within a letter
     try:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from equipoise.io.columns.table import Numbers
+from equipoise.model.arrays import Series1
 
 FORTRAN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))[dD]([+-]?\d+)")  # an exponent of double precision
 NAN = frozenset({"nan", "na", "n/a", "#n/a", "null", "none", "-", "--"})  # words for no number
@@ -14,16 +15,24 @@ NAN = frozenset({"nan", "na", "n/a", "#n/a", "null", "none", "-", "--"})  # word
 
 def numbers_of(cells: Sequence[str], decimal: str) -> Numbers:
     """Return a column of cells as numbers; ``decimal`` is their point."""
-    try:
-        values = np.array([float(cell) if cell else math.nan for cell in cells])
-    except ValueError:
-        values = np.array([_number(cell, decimal) for cell in cells])
+    values = _values(cells, decimal)
     empty = np.flatnonzero(~np.isfinite(values))
+    if not len(empty):
+        return Numbers(values)
     words = [cells[row].strip().lower() for row in empty.tolist()]
     nan = np.array([word in NAN for word in words], dtype=bool)
     garbage = np.array([bool(word) and word not in NAN for word in words], dtype=bool)
     values[empty] = np.nan
     return Numbers(values, empty[nan], empty[garbage])
+
+
+def _values(cells: Sequence[str], decimal: str) -> Series1:
+    try:
+        if "" in cells:
+            return np.array([float(cell) if cell else math.nan for cell in cells])
+        return np.fromiter(map(float, cells), np.float64, len(cells))
+    except ValueError:
+        return np.array([_number(cell, decimal) for cell in cells])
 
 
 def _number(cell: str, decimal: str) -> float:

@@ -1,75 +1,62 @@
 """A separated text table: find the header, make rows even, turn cells into numbers.
 
+A text is read block by block: the first shows how it is written and what its columns are called.
 What we write reads back to the last bit.
 
 Motive writes several header lines (kind, name, identity, rotation or position) above the one with
 X, Y, Z, W; a name that occurs twice there is distinguished by what stands above it.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import replace
-from functools import cache
+import contextlib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from equipoise.io.columns.column_map import Layout
-from equipoise.io.columns.row_faults import FaultyRows, RowFault
-from equipoise.io.columns.table import Numbers, Table
-from equipoise.io.formats.cell_numbers import numbers_of
-from equipoise.io.formats.header_rows import filled, header_of, place_of
-from equipoise.io.formats.long_text import LONG, plain_table
-from equipoise.io.formats.text_rows import text_rows
-from equipoise.model.arrays import Ints, Series1
+from equipoise.io.columns.column_store import InMemory, Store
+from equipoise.io.columns.table import Table
+from equipoise.io.files.reading_budget import Budget, Meter
+from equipoise.io.formats.header_rows import Header, header_of
+from equipoise.io.formats.long_text import PlainBlocks, is_for_arrow
+from equipoise.io.formats.table_parts import NotInPairs, TableParts
+from equipoise.io.formats.text_blocks import Text
+from equipoise.io.formats.text_rows import HEAD_LINES, RowCutter, TextRows, writing_of
+from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
+
+FIRST_LINES = 3 * HEAD_LINES  # that hold the header and what it is judged by (chosen)
+HELD = 30  # bytes that one of a text takes as rows of cells (chosen: of cells of one digit)
 
 
 def cut(text: str, source: str, layout: Layout) -> Table:
     """Return the table in a text."""
-    plain = plain_table(text, source, layout) if len(text) > LONG else None
-    return row_by_row(text, source, layout) if plain is None else plain
+    return table_in(Text.of(text), source, layout, Budget().of(source, len(text)))
 
 
-def row_by_row(text: str, source: str, layout: Layout) -> Table:
-    """Return the table in a text of any length and any faults."""
-    found = text_rows(text, source, layout)
-    table = table_of(found.rows, found.lines, source, layout, found.decimal)
-    return replace(table, notes=(*found.notes, *table.notes))
-
-
-def table_of(
-    rows: list[list[str]], lines: list[int], source: str, layout: Layout, decimal: str = "."
+def table_in(
+    text: Text, source: str, layout: Layout, meter: Meter, store: Callable[[], Store] = InMemory
 ) -> Table:
-    """Return the table in rows of cells and their lines, the header among them.
+    """Return the table in a text; InputError if it is none, or takes too much.
 
-    ``decimal`` is the point of a number unless the layout states another.
+    ``store`` makes what its numbers are kept in.
     """
-    if not rows:
-        raise InputError(source, "nothing but blank lines", "a header and rows of numbers")
-    header = header_of(rows, lines, source, layout)
-    body, kept = rows[header.end :], lines[header.end :]
-    if not body:
-        raise InputError(source, "a header but no rows", "rows of numbers")
-    body, notes = _joined_in_pairs(body, len(header.names), decimal)
-    body, kept, short = _without_cut_end(body, kept, len(header.names))
-    even, faulty = _even(body, kept, len(header.names), source)
-    cells = tuple(zip(*even, strict=True))
-    point = layout.decimal or decimal
+    for in_pairs in (True, False):  # what the first rows seem to need a later one may refute
+        with contextlib.suppress(NotInPairs):
+            return _table_in(text, source, layout, meter, _Keeping(in_pairs, store()))
+    raise AssertionError(source)
 
-    @cache
-    def numbers(name: str) -> Numbers:
-        return numbers_of(cells[place_of(header, name, source)], point)
 
-    return Table(
-        source,
-        header.names,
-        len(even),
-        lambda _, name: numbers(name),
-        tuple(kept),
-        (*header.notes, *notes, *short),
-        faulty,
-        lambda name, row: cells[header.names.index(name)][row],
-        header.units,
-    )
+def table_of(rows: list[list[str]], lines: list[int], source: str, layout: Layout) -> Table:
+    """Return the table in rows of cells and their lines, the header among them."""
+    found, meter = TextRows(rows, np.array(lines, dtype=np.int64)), Budget().of(source, 0)
+    header = _header(found, source, layout)
+    for in_pairs in (True, False):
+        parts = TableParts(header, layout.decimal or ".", meter, in_pairs, InMemory())
+        with contextlib.suppress(NotInPairs):
+            parts.add_rows(rows[header.end :], found.lines[header.end :])
+            return parts.table(source)
+    raise AssertionError(source)
 
 
 def csv_text(columns: Mapping[str, Series1]) -> str:
@@ -80,56 +67,70 @@ def csv_text(columns: Mapping[str, Series1]) -> str:
     return "\n".join([",".join(columns), *rows]) + "\n"
 
 
-def _joined_in_pairs(
-    rows: list[list[str]], width: int, decimal: str
-) -> tuple[list[list[str]], tuple[str, ...]]:
-    """Return rows whose numbers were cut in two by a decimal comma as they were before."""
-    if decimal == "," or not all(len(row) == 2 * width for row in rows[:-1] or rows):
-        return rows, ()
-    pairs = [list(zip(row[::2], row[1::2], strict=True)) for row in rows if len(row) == 2 * width]
-    if not all(fraction.strip().isdigit() for row in pairs for _, fraction in row):
-        return rows, ()
-    joined = [[f"{whole.strip()}.{part.strip()}" for whole, part in row] for row in pairs]
-    cut_end = rows[len(pairs) :]
-    note = "Each number is cut in two by a decimal comma; the parts were joined."
-    return [*joined, *([c[: width - 1] for c in cut_end])], (note,)
+@dataclass(frozen=True, slots=True)
+class _Keeping:
+    """How the cells of a text are kept."""
+
+    in_pairs: bool
+    store: Store
 
 
-def _without_cut_end(
-    rows: list[list[str]], lines: list[int], width: int
-) -> tuple[list[list[str]], list[int], tuple[str, ...]]:
-    """Return rows without a last one that was cut short, as where a logger lost power."""
-    if len(rows) < 2 or len(rows[-1]) >= width:
-        return rows, lines, ()
-    note = f"The last row (line {lines[-1]}) is cut short; it was left out."
-    return rows[:-1], lines[:-1], (note,)
+def _table_in(text: Text, source: str, layout: Layout, meter: Meter, keeping: _Keeping) -> Table:
+    """Return the table; NotInPairs if cells were to be joined and a row cannot be."""
+    blocks = text.blocks()
+    first = _first(blocks, layout, meter)
+    writing = writing_of(first.splitlines(), layout)
+    cutter = RowCutter(blocks, writing, source)
+    found = _with_names(cutter.rows(first), writing.labels)
+    header = _header(found, source, layout)
+    noted = replace(header, notes=(*writing.notes, *header.notes))
+    parts = TableParts(noted, writing.decimal, meter, keeping.in_pairs, keeping.store)
+    width = len(header.names)
+    plain = PlainBlocks(width, writing) if is_for_arrow(text.size, width, writing) else None
+    parts.add_rows(found.rows[header.end :], found.lines[header.end :])
+    for block in blocks:
+        meter.check(0)
+        _add(block, parts, cutter, plain)
+    return parts.table(source)
 
 
-def _even(
-    rows: list[list[str]], lines: list[int], width: int, source: str
-) -> tuple[list[list[str]], tuple[FaultyRows, ...]]:
-    """Return rows of equal width; those with cells too few or too many are blank, and faulty."""
-    if set(map(len, rows)) == {width}:
-        return rows, ()
-    few = np.array([len(row) < width for row in rows])
-    # Blank cells beyond the header are a separator too many.
-    many = np.array([filled(row[width:]) > 0 for row in rows])
-    kinds = ((RowFault.CUT_SHORT, few), (RowFault.TOO_WIDE, many))
-    faulty = tuple(
-        _uneven(kind, np.flatnonzero(mask), rows, width, lambda row: f"{source}, line {lines[row]}")
-        for kind, mask in kinds
-        if mask.any()
-    )
-    bad = few | many
-    blank = [""] * width
-    return [blank if b else row[:width] for row, b in zip(rows, bad, strict=True)], faulty
+def _header(found: TextRows, source: str, layout: Layout) -> Header:
+    if not found.rows:
+        raise InputError(source, "nothing but blank lines", "a header and rows of numbers")
+    return header_of(found.rows, found.lines, source, layout)
 
 
-def _uneven(
-    kind: RowFault, which: Ints, rows: list[list[str]], width: int, where: Callable[[int], str]
-) -> FaultyRows:
-    row = int(which[0])
-    wanted = f"{width}, as the header"
-    if kind == RowFault.TOO_WIDE and len(which) == len(rows):
-        wanted += "; are the decimal points commas? Then separate the cells by ';'"
-    return FaultyRows(kind, which, where(row), f"{len(rows[row])} cells", wanted)
+def _first(blocks: Iterator[str], layout: Layout, meter: Meter) -> str:
+    """Return as much of a text as shows how it is written and what its columns are called."""
+    read: list[str] = []
+    skip, filled = layout.skip_rows or 0, 0
+    for block in blocks:
+        read.append(block)
+        lines = block.splitlines()
+        filled += sum(bool(line.strip()) for line in lines[skip:])
+        skip = max(skip - len(lines), 0)
+        if filled >= FIRST_LINES:
+            break
+        meter.check(HELD * sum(map(len, read)))
+    return "".join(read)
+
+
+def _with_names(found: TextRows, names: tuple[str, ...]) -> TextRows:
+    """Return rows of labelled lines below a row of their names."""
+    if not names:
+        return found
+    head = next(k for k, row in enumerate(found.rows) if len(row) == len(names))
+    lines = np.insert(np.array(found.lines, dtype=np.int64), head, found.lines[head])
+    return TextRows([*found.rows[:head], [*names], *found.rows[head:]], lines)
+
+
+def _add(block: str, parts: TableParts, cutter: RowCutter, plain: PlainBlocks | None) -> None:
+    """Add the rows that begin in a block."""
+    columns = None if plain is None else plain.columns(block)
+    if columns is None:
+        found = cutter.rows(block)
+        parts.add_rows(found.rows, found.lines)
+        return
+    first = cutter.line + 1
+    parts.add_columns(columns, range(first, first + len(columns[0].numbers.values)))
+    cutter.passed(block.count("\n"))

@@ -3,7 +3,10 @@
 import re
 from dataclasses import dataclass
 
+import numpy as np
+
 from equipoise.io.columns.column_map import Layout
+from equipoise.io.columns.table import Lines
 from equipoise.io.formats.cell_numbers import number_in
 from equipoise.io.formats.text_rows import HEAD_LINES
 from equipoise.io.toml.units import TO_SI
@@ -26,10 +29,10 @@ class Header:
     notes: tuple[str, ...] = ()
 
 
-def header_of(rows: list[list[str]], lines: list[int], source: str, layout: Layout) -> Header:
+def header_of(rows: list[list[str]], lines: Lines, source: str, layout: Layout) -> Header:
     """Return the header; without one columns are called 1, 2 and so on."""
     skipped = layout.skip_rows
-    before = None if skipped is None else sum(line <= skipped for line in lines)
+    before = None if skipped is None else int(np.sum(np.asarray(lines) <= skipped))
     last = _row_before_data(rows) if before is None else before
     if last >= len(rows):
         raise InputError(source, f"only {len(rows)} rows", "a header and rows of numbers")

@@ -99,9 +99,16 @@ def _cell(name: str, row: int, arrow: Any) -> str:
 
 def parquet_bytes(columns: Mapping[str, Series1], source: str) -> bytes:
     """Return columns as a Parquet file's bytes; NaN becomes null."""
+    stream = io.BytesIO()
+    _pyarrow("pyarrow.parquet", source).write_table(arrow_columns(columns, source), stream)
+    return stream.getvalue()
+
+
+def arrow_columns(columns: Mapping[str, Series1], source: str) -> Any:
+    """Return columns as a table of pyarrow; NaN becomes null."""
     pyarrow = _pyarrow("pyarrow", source)
     arrays = {name: pyarrow.array(v, mask=np.isnan(v)) for name, v in columns.items()}
-    return _written(arrays, source)
+    return pyarrow.table(arrays)
 
 
 def parquet_of_cells(columns: Mapping[str, Sequence[Any]], source: str) -> bytes:

@@ -10,9 +10,12 @@ may lack, or Frame and Time in it. The names become 'Frame (100 Hz)', 'Time', 'P
 what stands above becomes blank lines, so that rows keep their places.
 """
 
-from dataclasses import dataclass
+import itertools
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 from equipoise.io.formats.header_line import line_of, rate_of
+from equipoise.io.formats.text_blocks import Text
 from equipoise.model.errors import InputError
 
 MARK = "NO_OF_FRAMES\t"
@@ -31,23 +34,40 @@ class Export:
     rows: list[str]
 
 
-def with_qualisys_header(text: str, source: str) -> str:
+def with_qualisys_header(text: Text, source: str) -> Text:
     """Return a text with one header line if it is QTM's, else as it is.
 
     InputError where the header lacks what explains the columns.
     """
-    if not text.startswith(MARK):
+    lines = text.first_lines()
+    if not lines or not lines[0].startswith(MARK):
         return text
-    export = _export(text.splitlines(), source)
+    export = _export(lines, source)
     count = _count(export, source)
     frames = f" ({export.rate} Hz)"
     names = [f"Frame{frames}" if each == "Frame" else each for each in count]
     names += [f"{body}/{column}" for body in export.bodies for column in OF_BODY]
-    blank = [""] * (export.above - 1)
-    if count:
-        return "\n".join([*blank, line_of(names, "\t"), *export.rows])
-    rows = (f"{number}\t{row}" for number, row in enumerate(export.rows))
-    return "\n".join([*blank, line_of([f"Row{frames}", *names], "\t"), *rows])
+    if not count:
+        names = [f"Row{frames}", *names]
+    above = "\n" * (export.above - 1) + line_of(names, "\t") + "\n"
+    rows = _rows(text, export.above, numbered=not count)
+    return replace(text, blocks=lambda: itertools.chain([above], rows()))
+
+
+def _rows(text: Text, above: int, numbered: bool) -> Callable[[], Iterator[str]]:
+    """Return the lines below some, in blocks, perhaps each with its number before it."""
+
+    def blocks() -> Iterator[str]:
+        before, frames = above, itertools.count()
+        for block in text.blocks():
+            lines = block.splitlines()
+            rows = lines[before:]
+            before = max(before - len(lines), 0)
+            if numbered:
+                rows = [f"{next(frames)}\t{row}" for row in rows]
+            yield "\n".join([*rows, ""])
+
+    return blocks
 
 
 def _export(lines: list[str], source: str) -> Export:

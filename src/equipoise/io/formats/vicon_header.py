@@ -11,9 +11,12 @@ each parted by a blank line; all but rows become blank lines, so that these keep
 """
 
 import csv
-from itertools import pairwise
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import chain, islice, pairwise, takewhile
 
 from equipoise.io.formats.header_line import PADDING, line_of, rate_of
+from equipoise.io.formats.text_blocks import Text
 from equipoise.model.errors import InputError
 
 BLOCKS = ("Objects", "Segments")
@@ -22,26 +25,36 @@ HEAD = 5  # lines
 ANGLES = "Global Angle "  # before the names in some exports of Tracker
 
 
-def with_vicon_header(text: str, source: str) -> str:
+def with_vicon_header(text: Text, source: str) -> Text:
     """Return a text with one header line if it is Vicon's, else as it is.
 
     InputError where the block of bodies has no rows.
     """
-    if MARK not in text:
+    if not any(MARK in block for block in text.blocks()):
         return text
-    lines = text.splitlines()
-    first = _block(lines)
+    first = _block(text.lines())
     if first is None:
         return text
-    data = first + HEAD
-    end = next((i for i in range(data, len(lines)) if not lines[i].strip(PADDING)), len(lines))
-    if end <= data:
+    head = list(islice(text.lines(), first, first + HEAD + 1))
+    if len(head) <= HEAD or not head[HEAD].strip(PADDING):
         wanted = "names of bodies, columns, units and rows of numbers"
         raise InputError(f"{source}, line {first + 1}", "a block that ends in its header", wanted)
-    return "\n".join([*[""] * (data - 1), _header(lines[first:data]), *lines[data:end]])
+    above = "\n" * (first + HEAD - 1) + _header(head[:HEAD]) + "\n"
+    return replace(text, blocks=lambda: chain([above], _rows(text.blocks(), first + HEAD)))
 
 
-def _block(lines: list[str]) -> int | None:
+def _rows(blocks: Iterator[str], above: int) -> Iterator[str]:
+    """Yield the lines below some, up to the first that is blank, in blocks."""
+    for block in blocks:
+        lines = block.splitlines()
+        rows = [*takewhile(lambda line: line.strip(PADDING), lines[above:])]
+        yield "\n".join([*rows, ""])
+        if len(rows) < len(lines[above:]):
+            return
+        above = max(above - len(lines), 0)
+
+
+def _block(lines: Iterator[str]) -> int | None:
     """Return the place of the block of bodies: its kind, and its rate on the line below."""
     bare = pairwise(line.strip(PADDING) for line in lines)
     places = (i for i, (kind, rate) in enumerate(bare) if kind in BLOCKS and rate_of(rate))

@@ -9,7 +9,7 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.read_options import BAD_ROWS
 from equipoise.io.columns.row_faults import FaultyRows, without_faulty
-from equipoise.io.columns.table import Table
+from equipoise.io.columns.table import Table, no_rows
 from equipoise.io.columns.unread_inputs import unread_inputs
 from equipoise.io.recording.attitude_columns import (
     lengths,
@@ -18,8 +18,9 @@ from equipoise.io.recording.attitude_columns import (
 )
 from equipoise.io.recording.channels import Channel, Rows, columns_of, in_body_axes, read_channel
 from equipoise.io.recording.clock import Clock, clock_of
-from equipoise.io.recording.rotation_columns import as_quaternions, of_rotations
+from equipoise.io.recording.rotation_columns import as_quaternions, blank_note, of_rotations
 from equipoise.io.recording.time_stamps import gap_notes, without_duplicates
+from equipoise.model.arrays import Bools, Ints
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 
@@ -46,19 +47,41 @@ def channel_of(source: Rows, name: str) -> Found:
     channel, faulty = read_channel(source, name, columns)
     if not len(channel):
         return Found(None, tuple(faulty))
-    kept, dead = _without_dead(channel, columns, source.columns.native)
-    if kept is not None and columns is source.columns.quaternion:
-        kept, short = of_unit_length(kept, source.table, source.columns)
-        faulty += short
-    if kept is not None and columns is source.columns.matrix:
-        kept, wrong, lost = of_rotations(kept, source.table)
-        faulty, dead = [*faulty, *wrong], (*dead, *lost)
-    if kept is None or not len(kept):
+    zero: Bools = np.logical_not(np.logical_or.reduce(channel.values != 0, axis=0))
+    is_dead, dead = dead_note(name, zero, columns, source.columns.native)
+    if is_dead:
         return Found(None, tuple(faulty), dead)
-    kept, twice = without_duplicates(kept, source.table)
-    if name not in ("attitude", *SCALARS):
-        kept = in_body_axes(kept, columns, source.columns.body)
-    return Found(kept, (*faulty, *twice), dead)
+    sound = sound_rows(channel, source, columns)
+    notes = (*dead, *blank_note(sound.blank, source.table))
+    kept = sound.channel if len(sound.channel) else None
+    return Found(kept, (*faulty, *sound.faulty), notes)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sound:
+    """A channel's rows that can be used, and the others."""
+
+    channel: Channel
+    faulty: tuple[FaultyRows, ...]
+    blank: Ints  # rows of the table that hold no reading
+
+
+def sound_rows(channel: Channel, source: Rows, columns: Columns) -> Sound:
+    """Return a channel that something was connected to, in body axes, without what is no reading.
+
+    That is what has not unit length, is no rotation, or has a stamp twice.
+    """
+    faulty, blank = list[FaultyRows](), no_rows()
+    if columns is source.columns.quaternion:
+        channel, faulty = of_unit_length(channel, source.table, source.columns)
+    if columns is source.columns.matrix:
+        channel, faulty, blank = of_rotations(channel, source.table)
+    if not len(channel):
+        return Sound(channel, tuple(faulty), blank)
+    channel, twice = without_duplicates(channel, source.table)
+    if channel.name not in ("attitude", *SCALARS):
+        channel = in_body_axes(channel, columns, source.columns.body)
+    return Sound(channel, (*faulty, *twice), blank)
 
 
 def recording_of(table: Table, columns: ColumnMap, bad_rows: float = BAD_ROWS) -> Recording:
@@ -102,8 +125,12 @@ def _rows(table: Table, columns: ColumnMap, clock: Clock) -> tuple[Rows, Notes]:
     start = float(clock.time[clock.rows[0]])
     if columns.native or abs(start) < EPOCH:
         return Rows(table, columns, clock.time, clock.rows), ()
-    reported = f"The clock starts at {start:.3f} s; this is taken as zero."
-    return Rows(table, columns, clock.time - start, clock.rows), (reported,)
+    return Rows(table, columns, clock.time - start, clock.rows), (zero_note(start),)
+
+
+def zero_note(start: float) -> str:
+    """Say where a clock starts that counts from a date."""
+    return f"The clock starts at {start:.3f} s; this is taken as zero."
 
 
 def _attitude(source: Rows) -> tuple[Found, Channel | None]:
@@ -123,7 +150,11 @@ def _attitude(source: Rows) -> tuple[Found, Channel | None]:
 def check_enough(source: str, recording: Recording) -> None:
     """Raise InputError for a recording of so few rows that nothing follows from them."""
     sensors = (recording.attitude, recording.rate)
-    most = max((len(sensor) for sensor in sensors if sensor is not None), default=0)
+    check_count(source, max((len(each) for each in sensors if each is not None), default=0))
+
+
+def check_count(source: str, most: int) -> None:
+    """Raise InputError if the longest of attitude and rate has too few rows."""
     if most < FEWEST:
         count = f"{most} row{'s' * (most > 1)}"
         found = f"{count} of attitude or rate" if most else "neither attitude nor rate"
@@ -134,19 +165,18 @@ def _samples(channel: Channel | None) -> Samples | None:
     return None if channel is None else channel.samples()
 
 
-def _without_dead(channel: Channel, columns: Columns, native: bool) -> tuple[Channel | None, Notes]:
-    """Return a channel that something was connected to: None if it is all zero, with notes.
+def dead_note(name: str, zero: Bools, columns: Columns, native: bool) -> tuple[bool, Notes]:
+    """Say whether nothing was connected to a channel, by which of its columns are all zero.
 
     A foreign gyro with one dead axis is left out as a whole: two true axes and a false zero
     mislead every estimator. In a native file a zero axis can be an exact simulation's.
     """
-    if channel.name in SCALARS:
-        return channel, ()  # what never changes is a fact, not a dead column
-    dead = np.abs(channel.values).max(axis=0) == 0
-    names = " ".join(n for n, zero in zip(columns.names, dead.tolist(), strict=True) if zero)
-    misleads = channel.name == "rate" and not native and bool(dead.any())
-    if dead.all() or misleads:
-        return None, (f"{channel.name}: zero in every row ({names}); the channel was ignored.",)
-    if dead.any() and channel.name == "rate":
-        return channel, (f"{channel.name}: zero in every row ({names}).",)
-    return channel, ()
+    if name in SCALARS:
+        return False, ()  # what never changes is a fact, not a dead column
+    names = " ".join(n for n, each in zip(columns.names, zero.tolist(), strict=True) if each)
+    misleads = name == "rate" and not native and bool(zero.any())
+    if zero.all() or misleads:
+        return True, (f"{name}: zero in every row ({names}); the channel was ignored.",)
+    if zero.any() and name == "rate":
+        return False, (f"{name}: zero in every row ({names}).",)
+    return False, ()

@@ -1,5 +1,6 @@
 """A table and its column map, to channels in SI that still know which row they come from."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -49,6 +50,14 @@ class Rows:
     columns: ColumnMap
     time: Series1  # s, of every row
     rows: Ints
+    # Of columns: the number that stands for no reading, where the rows are a part of a table.
+    sentinels: Mapping[str, float | None] | None = None
+
+    def marked(self, column: str, values: Series1) -> Ints:
+        """Return the rows of a column whose number stands for no reading."""
+        if self.sentinels is None:
+            return sentinel_rows(values)
+        return np.flatnonzero(values == self.sentinels[column])
 
     def alive(self) -> Bools:
         """Say of each row of the table whether some channel has a reading."""
@@ -73,15 +82,15 @@ def _together(columns: tuple[NamedColumn, ...]) -> Columns | None:
     return Columns(tuple(c.column for c in columns), tuple(c.factor for c in columns))
 
 
-def read_time(table: Table, columns: ColumnMap) -> Series1:
+def read_time(table: Table, columns: ColumnMap, least: float | None = None) -> Series1:
     """Return the clock of every row, s, NaN where there is none.
 
     A clock that counts from 1970 would lose its nanoseconds in a double: whole seconds are taken
-    off before the parts are added.
+    off before the parts are added, the ``least`` of a table that these rows are a part of.
     """
     parts = [_numbers(table, c)[0].values for c in columns.time]
     if len(parts) > 1 and np.isfinite(parts[0]).any():
-        parts[0] = parts[0] - np.nanmin(parts[0])
+        parts[0] = parts[0] - (np.nanmin(parts[0]) if least is None else least)
     return np.sum(
         [part * np.array(c.factor) for part, c in zip(parts, columns.time, strict=True)], axis=0
     )
@@ -93,14 +102,14 @@ def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, li
     A row of NaN throughout had no reading if another channel has one there; if none has, nothing
     was recorded, which is a fault.
     """
-    table, rows = source.table, source.rows
-    numbers = _numbers(table, columns)
-    marked = _sentinels(source, name, numbers)
-    values = np.stack([each.values for each in numbers], axis=1)[rows]
-    garbage = _marked(table, [each.garbage for each in numbers])[rows]
-    nan = _marked(table, [each.nan for each in numbers])[rows]
-    full = ~np.isnan(values).any(axis=1)
-    none = np.isnan(values).all(axis=1) & ~garbage  # no reading here
+    rows = source.rows
+    numbers = _numbers(source.table, columns)
+    marked = _sentinels(source, name, columns, numbers)
+    blank = [np.isnan(each.values) for each in numbers]
+    garbage = _marked(source.table, [each.garbage for each in numbers])[rows]
+    nan = _marked(source.table, [each.nan for each in numbers])[rows]
+    full = ~np.logical_or.reduce(blank)[rows]
+    none = np.logical_and.reduce(blank)[rows] & ~garbage  # no reading here
     if (none & nan).any():
         none &= ~nan | source.alive()[rows]
     sentinel = marked[rows] & ~none
@@ -113,9 +122,20 @@ def read_channel(source: Rows, name: str, columns: Columns) -> tuple[Channel, li
         if mask.any()
     ]
     found += _marked_rows(source, columns, numbers, sentinel)
-    si = (values[full] - np.array(columns.offset)) * np.array(columns.factor)
-    whole = Channel(name, source.time[rows][full], si, rows[full])
-    return _without_overflow(whole, table, columns, found)
+    kept = rows if full.all() else rows[full]
+    whole = Channel(name, source.time[kept], _si(numbers, columns, kept), kept)
+    return _without_overflow(whole, source.table, columns, found)
+
+
+def _si(numbers: list[Numbers], columns: Columns, rows: Ints) -> Floats:
+    """Return some rows of columns in SI, column by column: whole copies of a long table count."""
+    si = np.empty((len(rows), len(numbers)))
+    offset, factor = (np.resize(each, len(numbers)) for each in (columns.offset, columns.factor))
+    for k, each in enumerate(numbers):
+        values = each.values if len(rows) == len(each.values) else each.values[rows]
+        np.subtract(values, offset[k], out=si[:, k])
+    si *= factor
+    return si
 
 
 def _without_overflow(
@@ -143,11 +163,17 @@ def in_body_axes(channel: Channel, columns: Columns, body: tuple[str, str, str])
     return Channel(channel.name, channel.t, channel.values @ axes_matrix(axes).T, channel.rows)
 
 
-def _sentinels(source: Rows, name: str, numbers: list[Numbers]) -> Bools:
-    """Return the rows with a number that stands for no reading, in files that are not ours."""
-    if name not in SENSORS or source.columns.native:
+def may_have_sentinels(name: str, columns: ColumnMap) -> bool:
+    """Say whether numbers of a channel may stand for no reading: in files that are not ours."""
+    return name in SENSORS and not columns.native
+
+
+def _sentinels(source: Rows, name: str, columns: Columns, numbers: list[Numbers]) -> Bools:
+    """Return the rows with a number that stands for no reading."""
+    if not may_have_sentinels(name, source.columns):
         return np.zeros(len(source.table), dtype=bool)
-    return _marked(source.table, [sentinel_rows(each.values) for each in numbers])
+    named = zip(columns.names, numbers, strict=True)
+    return _marked(source.table, [source.marked(column, each.values) for column, each in named])
 
 
 def _marked_rows(
@@ -158,8 +184,8 @@ def _marked_rows(
         return []
     table, faulty = source.table, source.rows[mask]
     row = int(faulty[0])
-    stands = [row in sentinel_rows(each.values) for each in numbers]
-    column = columns.names[stands.index(True)]
+    named = zip(columns.names, numbers, strict=True)
+    column = next(column for column, each in named if row in source.marked(column, each.values))
     where = f"{table.source}, {table.place(row)}, column '{column}'"
     found = f"{table.numbers(column).values[row]:.9g}, which stands for no reading"
     wanted = f"a reading, or {table.blank} for none"

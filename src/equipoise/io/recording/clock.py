@@ -40,17 +40,18 @@ def clock_of(table: Table, columns: ColumnMap) -> Clock:
     time = read_time(table, columns)
     lost = np.concatenate([no_rows(), *(each.rows for each in table.faulty)])
     timed = np.flatnonzero(~np.isnan(time))
-    untimed = _untimed(table, columns, np.setdiff1d(np.flatnonzero(np.isnan(time)), lost))
+    without = untimed(table, columns, np.setdiff1d(np.flatnonzero(np.isnan(time)), lost))
     if not len(timed):
-        where = untimed[0].where if untimed else table.source
+        where = without[0].where if without else table.source
         raise InputError(where, "no row with a time", "a time in every row")
     time, notes = _unwrapped(table, columns, time, timed)
     rows, back = _forward(table, time, timed)
     rows, strays = (rows, ()) if columns.native else _without_strays(table, time, rows)
-    return Clock(time, rows, (*untimed, *back, *strays), notes)
+    return Clock(time, rows, (*without, *back, *strays), notes)
 
 
-def _untimed(table: Table, columns: ColumnMap, rows: Ints) -> tuple[FaultyRows, ...]:
+def untimed(table: Table, columns: ColumnMap, rows: Ints) -> tuple[FaultyRows, ...]:
+    """Return rows without a time, as one fault; none if there are none."""
     if not len(rows):
         return ()
     row, names = int(rows[0]), [name for part in columns.time for name in part.names]
@@ -65,7 +66,7 @@ def _unwrapped(
 ) -> tuple[Series1, Notes]:
     """Return a clock that goes on where its counter began anew."""
     wrapped = wraps(time[timed], float(np.min(columns.time[0].factor)))
-    whole = time.copy()
+    whole = time.copy() if wrapped else time
     notes: list[str] = []
     for place, length in wrapped:
         whole[timed[place:]] += length

@@ -10,20 +10,21 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.column_store import Disk
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.file_content import Content, opened, sha256_of
 from equipoise.io.files.reading_budget import Budget
-from equipoise.io.files.source_file import text_of
 from equipoise.io.formats.compressed import KINDS, ZIP, unpacked
-from equipoise.io.formats.csv_table import csv_text, cut
+from equipoise.io.formats.csv_table import csv_text, table_in
 from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
 from equipoise.io.formats.parquet_table import MAGIC as PARQUET
 from equipoise.io.formats.parquet_table import parquet_bytes, read_parquet
 from equipoise.io.formats.qualisys_header import with_qualisys_header
+from equipoise.io.formats.text_blocks import Text, text_in
 from equipoise.io.formats.vicon_header import with_vicon_header
 from equipoise.io.formats.xlsx_table import is_workbook, read_xlsx
 from equipoise.io.logs.dataflash_log import MAGIC as DATAFLASH
@@ -121,14 +122,31 @@ def _with(*marks: bytes) -> Begins:
 
 
 def _read_text(path: Path, content: Content, options: ReadOptions) -> tuple[Table, None]:
+    text = _text(path, content, options)
+    return table_in(text, str(path), options.layout, content.meter), None
+
+
+def table_on_disk(
+    path: Path,
+    content: Content,
+    options: ReadOptions,
+    disk: Disk,
+    on_progress: Callable[[float], None],
+) -> Table:
+    """Return the table in a text; its numbers are kept on a disk."""
+    text = _text(path, content, options).watched(on_progress)
+    return table_in(text, str(path), options.layout, content.meter, disk.store)
+
+
+def _text(path: Path, content: Content, options: ReadOptions) -> Text:
     refuse_choice(options, str(path), "a table")
-    text, source, layout = text_of(content.whole(), path, WANTED), str(path), options.layout
+    text, source, layout = text_in(content, path, WANTED), str(path), options.layout
     if path.suffix.lower() == ".toml":
         wanted = f"{WANTED}; a testbed is given as --testbed {path}"
         raise InputError(source, "a TOML file, as a testbed is", wanted)
     if layout.skip_rows is None and layout.header:  # else a person has said where rows begin
-        text = with_vicon_header(with_qualisys_header(text, source), source)
-    return cut(text, source, layout), None
+        return with_vicon_header(with_qualisys_header(text, source), source)
+    return text
 
 
 def _read_inside(

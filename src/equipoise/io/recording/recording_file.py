@@ -30,7 +30,7 @@ def read_recording(path: str | Path, options: ReadOptions = AS_IT_IS) -> Recordi
     """
     with declared(str(path), WANTED), content_of(Path(path), options.max_memory) as content:
         table, known = format_of(Path(path), content).read(Path(path), content, options)
-        recording = recording_from(table, _columns(table, known, options), options.bad_rows)
+        recording = recording_from(table, columns_for(table, known, options), options.bad_rows)
         return replace(recording, sha256=digest(Path(path), content))
 
 
@@ -48,7 +48,7 @@ def recording_from(table: Table, columns: ColumnMap, bad_rows: float) -> Recordi
 def write_recording(recording: Recording, path: str | Path) -> None:
     """Write a recording whole or not at all, in the format of the path's suffix."""
     write = format_to_write(Path(path))
-    _check_finite(recording, str(path))
+    check_finite(recording, str(path))
     write(recording, Path(path))
 
 
@@ -65,7 +65,7 @@ def check_names(recording: Recording, testbed: Testbed) -> None:
                 raise InputError(f"{recording.source}, header", f"{kind} '{name}', {of}", wanted)
 
 
-def _columns(table: Table, known: ColumnMap | None, options: ReadOptions) -> ColumnMap:
+def columns_for(table: Table, known: ColumnMap | None, options: ReadOptions) -> ColumnMap:
     """Return what a table's columns mean: as given, as its format states, or by the header."""
     dialect, body = options.dialect, options.body
     if options.columns is not None and body is not None:
@@ -82,7 +82,7 @@ def _columns(table: Table, known: ColumnMap | None, options: ReadOptions) -> Col
     return dialect_map(dialect, table.names, table.source, body)
 
 
-def _check_finite(recording: Recording, path: str) -> None:
+def check_finite(recording: Recording, path: str) -> None:
     """Refuse to write what would come back as a blank cell."""
     for name in CHANNELS:
         channel: Samples | None = getattr(recording, name)

@@ -23,30 +23,31 @@ def as_quaternions(channel: Channel, table: Table, columns: ColumnMap) -> tuple[
     return euler_angles(channel, columns)
 
 
-def of_rotations(channel: Channel, table: Table) -> tuple[Channel, list[FaultyRows], Notes]:
+def of_rotations(channel: Channel, table: Table) -> tuple[Channel, list[FaultyRows], Ints]:
     """Return the matrices (n, 9), row by row, that are rotations, as far as rounding goes.
 
-    Rows of zeros alone hold no reading; the others that are no rotation are faulty.
+    Rows of zeros alone, returned last, hold no reading; others that are no rotation are faulty.
     """
     blank = (channel.values == 0).all(axis=1)
     turns = _square(channel)
     misses = np.abs(turns.swapaxes(1, 2) @ turns - np.eye(3)).max(axis=(1, 2)) > ROUNDED
     bad = (misses | (np.linalg.det(turns) < 0)) & ~blank
-    notes = _blank_note(channel.rows[blank], table)
+    lost = channel.rows[blank]
     if not bad.any():
-        return channel.keep(~blank), [], notes
+        return channel.keep(~blank), [], lost
     rows, kind = channel.rows[bad], "no rotation" if misses[bad][0] else "a mirror image"
     where = f"{table.source}, {table.place(int(rows[0]))}"
     wanted = "columns of unit length at right angles, right-handed"
     fault = FaultyRows(RowFault.NOT_ROTATION, rows, where, f"a matrix that is {kind}", wanted)
-    return channel.keep(~blank & ~bad), [fault], notes
+    return channel.keep(~blank & ~bad), [fault], lost
 
 
 def _square(channel: Channel) -> Floats:
     return channel.values.reshape(-1, 3, 3)
 
 
-def _blank_note(rows: Ints, table: Table) -> Notes:
+def blank_note(rows: Ints, table: Table) -> Notes:
+    """Say which rows of matrices hold nothing but zeros."""
     if not len(rows):
         return ()
     text = f"attitude: {len(rows)} rows of zeros alone, first at {table.place(int(rows[0]))}"

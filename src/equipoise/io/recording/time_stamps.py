@@ -5,6 +5,7 @@ import numpy as np
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
 from equipoise.io.columns.table import Table
 from equipoise.io.recording.channels import Channel
+from equipoise.model.arrays import Series1
 
 Notes = tuple[str, ...]
 GAP = 3.0  # median intervals (chosen; one missed row is 2, two are 3)
@@ -13,7 +14,7 @@ NAMED = 3  # gaps that are named one by one
 
 def without_duplicates(channel: Channel, table: Table) -> tuple[Channel, list[FaultyRows]]:
     """Return a channel with the first row of each time stamp alone."""
-    again = np.append(False, np.diff(channel.t) == 0)
+    again = np.append(False, channel.t[1:] == channel.t[:-1])
     if not again.any():
         return channel, []
     rows, t = channel.rows[again], channel.t[again]
@@ -29,9 +30,14 @@ def gap_notes(channel: Channel) -> Notes:
     if not len(steps):
         return ()
     where = np.flatnonzero(steps > GAP * np.median(steps))
-    if not len(where):
+    return gap_note(channel.name, steps[where], channel.t[where])
+
+
+def gap_note(name: str, steps: Series1, times: Series1) -> Notes:
+    """Say where gaps of some lengths (s) begin (s)."""
+    if not len(steps):
         return ()
-    longest = where[np.argsort(-steps[where], kind="stable")][:NAMED]
-    reported = ", ".join(f"{steps[i]:.3g} s from {channel.t[i]:.6g} s" for i in sorted(longest))
-    named = f"the longest: {reported}" if len(where) > NAMED else reported
-    return (f"{channel.name}: {len(where)} gap{'s' * (len(where) > 1)}: {named}.",)
+    longest = np.argsort(-steps, kind="stable")[:NAMED]
+    reported = ", ".join(f"{steps[i]:.3g} s from {times[i]:.6g} s" for i in sorted(longest))
+    named = f"the longest: {reported}" if len(steps) > NAMED else reported
+    return (f"{name}: {len(steps)} gap{'s' * (len(steps) > 1)}: {named}.",)
