@@ -74,7 +74,7 @@ def shown(place: Path) -> None:
         html(found, {})
 
 
-def asked(content: bytes) -> None:
+def checked_request(content: bytes) -> None:
     """A request is one that keeps to the schema, or it is refused."""
     found: Any = json.loads(content)
     kind = type(REQUESTS[found["kind"]])
@@ -114,7 +114,9 @@ TARGETS = (
     Target("report", report_of_ours, inside(DOCUMENT, shown)),
     Target("run", run_of_ours, inside(RUN, read_run)),
     Target(
-        "request", functools.partial(bytes, b'{"kind": 1, "values": {"method": "auto"}}'), asked
+        "request",
+        functools.partial(bytes, b'{"kind": 1, "values": {"method": "auto"}}'),
+        checked_request,
     ),
 )
 SHAKES: dict[str, Shake] = {

@@ -18,9 +18,9 @@ class Watcher:
     def __init__(self) -> None:
         self.on, self.found = False, list[str]()
         self.folders: tuple[str, ...] = ()
-        sys.addaudithook(self._heard)
+        sys.addaudithook(self._noted)
 
-    def _heard(self, event: str, words: tuple[Any, ...]) -> None:
+    def _noted(self, event: str, words: tuple[Any, ...]) -> None:
         if not self.on:
             return
         if event in ELSEWHERE:

@@ -160,13 +160,15 @@ def test_of_two_records_in_one_file_none_is_spliced_from_both(tmp_path) -> None:
         read(tmp_path, body, ROS, bad_rows=0.6)
 
 
-def test_a_factor_beyond_any_number_is_refused(tmp_path) -> None:
-    """A map of such a factor made a recording of infinite rates."""
+def test_a_factor_beyond_any_bench_is_refused(tmp_path) -> None:
+    """A map of such a factor made a recording of rates that no bench has."""
     (tmp_path / "m.toml").write_text(
-        'time = {column = "time_s", unit = "s"}\n[rate]\nunit = "rpm"\nfactor = 1e308\n'
+        'time = {column = "time_s", unit = "s"}\n[rate]\nunit = "rpm"\nfactor = 1e5\n'
         'columns = ["omega_x_rad_s", "omega_y_rad_s", "big"]\n'
     )
     body = [f"{line},1e9" for line in lines(GOOD)]
     columns = read_column_map(tmp_path / "m.toml")
-    with pytest.raises(InputError, match=r"line 2, column 'big'.*beyond any number in SI"):
+    with pytest.raises(
+        InputError, match=r"line 2, column 'big'.*in SI beyond 10000, which no bench has"
+    ):
         read(tmp_path, body, ",".join([*NAMES, "big"]), columns=columns)

@@ -153,5 +153,19 @@ def test_rows_behind_a_gap_that_a_bench_may_have_are_kept(tmp_path) -> None:
     t = T.copy()
     t[-1] += 1000.0
     assert len(read(tmp_path, foreign(t)).attitude) == 20
-    t[10:] += 1e9
+    t[10:] += 1e6
     assert len(read(tmp_path, foreign(t)).attitude) == 20
+
+
+def test_seconds_beside_a_time_since_1970_are_refused(tmp_path) -> None:
+    """Half of the rows each: neither is a stray; the whole would be a record of fifty years."""
+    t = T.copy()
+    t[10:] += 1.7e9
+    with pytest.raises(InputError, match=r"1\.7e\+09 s; wanted at most 1e\+07 s: is the unit"):
+        read(tmp_path, foreign(t))
+
+
+def test_rows_closer_than_any_sensor_gives_are_refused(tmp_path) -> None:
+    """A clock of nanoseconds that was divided once too often."""
+    with pytest.raises(InputError, match=r"20 rows within .*is the unit of the time right"):
+        read(tmp_path, foreign(T * 1e-9))

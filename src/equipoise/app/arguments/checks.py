@@ -15,7 +15,7 @@ Triple = tuple[float, float, float]
 MaybeNumber = TypeVar("MaybeNumber", float, float | None)
 
 
-def believed(option: str, value: MaybeNumber) -> MaybeNumber:
+def plausible(option: str, value: MaybeNumber) -> MaybeNumber:
     """Return a number that is plausible of a bench; None stays None."""
     from equipoise.io.toml.plausible import check_plausible
 
@@ -28,7 +28,7 @@ def positive(option: str, value: MaybeNumber) -> MaybeNumber:
     """Return a number above zero; None, for an option that was not given, stays None."""
     if value is not None and not (0 < value < math.inf):
         raise InputError(option, f"{value:g}", "a number above 0")
-    return believed(option, value)
+    return plausible(option, value)
 
 
 def duration_of(option: str, seconds: float, testbed: "Testbed") -> float:
@@ -45,7 +45,7 @@ def not_negative(option: str, value: MaybeNumber) -> MaybeNumber:
     """Return a number of at least zero; None stays None."""
     if value is not None and not (0 <= value < math.inf):
         raise InputError(option, f"{value:g}", "a number of at least 0")
-    return believed(option, value)
+    return plausible(option, value)
 
 
 def between(option: str, value: float, low: float, high: float) -> float:
@@ -83,7 +83,7 @@ def vector(option: str, values: Triple, unit: float) -> Vector3:
     if not all(map(math.isfinite, values)):
         raise InputError(option, f"{values}", "three finite numbers")
     for value in values:
-        believed(option, value)
+        plausible(option, value)
     return np.array(values, dtype=float) * unit
 
 

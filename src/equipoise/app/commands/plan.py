@@ -64,13 +64,7 @@ def plan(
     out
         Folder for report and plan.json.
     """
-    from equipoise.app.arguments.checks import (
-        check_outputs,
-        duration_of,
-        not_negative,
-        positive,
-        seed_of,
-    )
+    from equipoise.app.arguments import checks
     from equipoise.app.arguments.inputs import (
         check_of_recording,
         fitting_recording_of,
@@ -79,12 +73,12 @@ def plan(
     )
     from equipoise.model.units import DEG, in_si
 
-    bed, requested, seed = announced(testbed_from(testbed)), options_of(seeking), seed_of(seed)
-    duration = duration_of("--duration-s", duration_s, bed)
-    rate = in_si(positive("--max-rate-deg-s", max_rate_deg_s), DEG)
-    count = int(not_negative("--moves", moves))
-    tries = int(positive("--trials", trials))
-    check_outputs(out, write)
+    bed, requested = announced(testbed_from(testbed)), options_of(seeking)
+    duration = checks.duration_of("--duration-s", duration_s, bed)
+    rate = in_si(checks.positive("--max-rate-deg-s", max_rate_deg_s), DEG)
+    count = int(checks.not_negative("--moves", moves))
+    tries = int(checks.positive("--trials", trials))
+    checks.check_outputs(out, write)
     check_of_recording(reading, prior_record, "--prior-record")
     earlier = None if prior_record is None else fitting_recording_of(prior_record, reading, bed)
     from equipoise.app.logbook.output import hand_over
@@ -92,8 +86,9 @@ def plan(
     from equipoise.app.runs.terminal_waiting import AT_TERMINAL
     from equipoise.app.views.plan_views import output_of
 
+    drawn = checks.seed_of(seed)
     request = Request(
-        bed, duration, quantity, criterion, count, rate, requested, earlier, tries, seed
+        bed, duration, quantity, criterion, count, rate, requested, earlier, tries, drawn
     )
     done = run(request, AT_TERMINAL)
     hand_over(output_of(done), json, out)

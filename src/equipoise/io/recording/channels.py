@@ -12,12 +12,27 @@ from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
 from equipoise.io.columns.sentinels import sentinel_rows
 from equipoise.io.columns.table import BLANK, Numbers, Table
+from equipoise.io.toml.plausible import SIZES
 from equipoise.model.arrays import Bools, Floats, Ints, Series1
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import CHANNELS, Samples
 
 # Channels of readings that scatter; a setting may stand at 999 for long.
 SENSORS = frozenset({"attitude", "rate", "field", "accelerometer", "sun"})
+# In SI, of each channel: what no bench has.
+LARGEST = {
+    "attitude": SIZES["number"],
+    "rate": SIZES["rate"],
+    "masses": SIZES["length"],
+    "momentum": SIZES["momentum"],
+    "torque": SIZES["torque"],
+    "devices": SIZES["dipole"],
+    "field": SIZES["magnetic"],
+    "temperature": SIZES["temperature"],
+    "lamp": SIZES["number"],
+    "accelerometer": SIZES["acceleration"],
+    "sun": SIZES["number"],
+}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,15 +156,16 @@ def _si(numbers: list[Numbers], columns: Columns, rows: Ints) -> Floats:
 def _without_overflow(
     channel: Channel, table: Table, columns: Columns, found: list[FaultyRows]
 ) -> tuple[Channel, list[FaultyRows]]:
-    """Return a channel without the rows that are beyond any number in SI, and all its faults."""
-    over = ~np.isfinite(channel.values)
+    """Return a channel without the rows that no bench has, and all its faults."""
+    most = LARGEST[channel.name]
+    over = (channel.values > most) | (channel.values < -most)
     mask: Bools = np.logical_or.reduce(over, axis=1)
     if not mask.any():
         return channel, found
     row = int(np.argmax(mask))
     column, place = columns.names[int(np.argmax(over[row]))], int(channel.rows[row])
     where = f"{table.source}, {table.place(place)}, column '{column}'"
-    said = f"{table.numbers(column).values[place]:.9g}, which is beyond any number in SI"
+    said = f"{table.numbers(column).values[place]:.9g}, in SI beyond {most:g}, which no bench has"
     wanted = "a reading, with the unit, factor and offset that it has"
     fault = FaultyRows(RowFault.BEYOND, channel.rows[mask], where, said, wanted)
     return channel.keep(~mask), [*found, fault]

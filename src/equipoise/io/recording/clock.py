@@ -14,6 +14,7 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
 from equipoise.io.columns.table import Table, no_rows
 from equipoise.io.recording.channels import read_time
+from equipoise.io.toml.plausible import SIZES
 from equipoise.model.arrays import Ints, Series1
 from equipoise.model.errors import InputError
 from equipoise.model.growing_times import longest_rising, wraps
@@ -47,7 +48,20 @@ def clock_of(table: Table, columns: ColumnMap) -> Clock:
     time, notes = _unwrapped(table, columns, time, timed)
     rows, back = _forward(table, time, timed)
     rows, strays = (rows, ()) if columns.native else _without_strays(table, time, rows)
+    check_span(table.source, float(time[rows[0]]), float(time[rows[-1]]), len(rows))
     return Clock(time, rows, (*without, *back, *strays), notes)
+
+
+def check_span(source: str, first: float, last: float, count: int) -> None:
+    """Raise InputError for times (s) that no record of a platform has, in so many rows."""
+    span, longest = last - first, SIZES["time"]
+    if span > longest:
+        found = f"times from {first:.9g} s to {last:.9g} s"
+        raise InputError(source, found, f"at most {longest:g} s: is the unit of the time right?")
+    if 0 < span < (count - 1) / SIZES["frequency"]:
+        found = f"{count} rows within {span:.3g} s"
+        wanted = f"at most {SIZES['frequency']:g} a second: is the unit of the time right?"
+        raise InputError(source, found, wanted)
 
 
 def untimed(table: Table, columns: ColumnMap, rows: Ints) -> tuple[FaultyRows, ...]:

@@ -14,7 +14,7 @@ from equipoise.io.columns.row_faults import FaultyRows
 from equipoise.io.columns.table import Table, no_rows
 from equipoise.io.recording.build_recording import EPOCH, zero_note
 from equipoise.io.recording.channels import Rows, read_time
-from equipoise.io.recording.clock import STRAY, Clock, clock_of, untimed
+from equipoise.io.recording.clock import STRAY, Clock, check_span, clock_of, untimed
 from equipoise.model.arrays import Ints
 
 Notes = tuple[str, ...]
@@ -51,6 +51,7 @@ class _Steps:
 
     seams: Ints  # rows at which a piece may begin
     first: float  # s
+    last: float  # s
     longest: float  # s
     usual: float  # s, the least of the pieces' medians
     untimed: Ints
@@ -65,6 +66,7 @@ def piece_clock(table: Table, columns: ColumnMap, size: int) -> PieceClock:
     lost = np.concatenate([no_rows(), *(each.rows for each in table.faulty)])
     faulty = untimed(table, columns, np.setdiff1d(steps.untimed, lost))
     start, notes = _zero(columns, steps.first)
+    check_span(table.source, steps.first, steps.last, len(table) - len(steps.untimed))
     pieces = _pieces(steps.seams, len(table))
     return PieceClock(pieces, start, least, faulty, notes)
 
@@ -111,7 +113,7 @@ def _steps(table: Table, columns: ColumnMap, least: float | None, size: int) -> 
     if np.isnan(first) or (not columns.native and longest > STRAY / 2 * count * min(medians)):
         return None
     rows = np.concatenate([no_rows(), *untimed_rows])
-    return _Steps(np.array(seams), first, longest, min(medians), rows)
+    return _Steps(np.array(seams), first, last, longest, min(medians), rows)
 
 
 def _as_a_whole(table: Table, columns: ColumnMap, size: int) -> PieceClock:

@@ -84,7 +84,7 @@ class Table(BaseModel):
 
     @field_validator("*")
     @classmethod
-    def _believed(cls, value: Any, info: Any) -> Any:
+    def _plausible(cls, value: Any, info: Any) -> Any:
         wanted = implausible(str(info.field_name), value)
         if wanted is not None:
             raise PydanticCustomError("implausible", "{wanted}", {"wanted": wanted})
