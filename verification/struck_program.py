@@ -19,10 +19,12 @@ from pathlib import Path
 
 import numpy as np
 
-HOUR = 3600.0  # s
+from equipoise.model.units import MINUTE
+
+AN_HOUR = 60 * MINUTE  # s
 DISK_FULL, FULL_PIPE, KILL = "disk full", "full pipe", "kill -9"
 SIGNALS = {KILL: signal.SIGKILL, "SIGTERM": signal.SIGTERM, "SIGHUP": signal.SIGHUP}
-JUMPS = {"clock an hour on": HOUR, "clock an hour back": -HOUR}
+JUMPS = {"clock an hour on": AN_HOUR, "clock an hour back": -AN_HOUR}
 FAULTS = (DISK_FULL, FULL_PIPE, *SIGNALS, *JUMPS)
 HELD = 2.0  # s, chosen: for which nobody reads a pipe that is full
 LEFT = 90.0  # s, chosen: for a command to end

@@ -17,12 +17,13 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import BenchStopped
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
+from equipoise.model.units import MM
 from equipoise.simulation.bench import SimulatedBench
 from tests.support.emulated_lab import Lab, lab, over_tcp
 from tests.support.recorded_events import events_of
 
 BED = replace(over_tcp(read_preset("nanosat")), tilt_limit=3.0)
-MM = 1e-3
+
 CANCEL = b"\x85"  # Grbl: cancel a jog
 
 

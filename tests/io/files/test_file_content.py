@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from equipoise.io.files import file_content
 from equipoise.io.files.file_content import Content, opened
-from equipoise.io.files.reading_budget import Budget
+from equipoise.io.files.reading_budget import ReadingBudget
 from equipoise.model.errors import InputError
 
 BYTES = st.binary(max_size=60) | st.text("ab", max_size=60).map(str.encode)
@@ -54,10 +54,10 @@ def test_a_byte_beyond_the_end_is_none():
 def test_the_limits_are_stated():
     """64 times the file, at least 256 MB and at most 2 GB; or what a person states, exactly."""
     for size, budget, limit in (
-        (10, Budget(), 256_000_000),
-        (10_000_000, Budget(), 640_000_000),
-        (10**9, Budget(), 2_000_000_000),
-        (10, Budget(5000), 5000),
+        (10, ReadingBudget(), 256_000_000),
+        (10_000_000, ReadingBudget(), 640_000_000),
+        (10**9, ReadingBudget(), 2_000_000_000),
+        (10, ReadingBudget(5000), 5000),
     ):
         meter = budget.of("a", size)
         meter.take(limit - 1)
@@ -70,7 +70,7 @@ def test_the_time_is_limited(monkeypatch):
     """A file of 2 MB has 30 s, and three times as long where three times the memory is stated."""
     clock = [0.0]
     monkeypatch.setattr("equipoise.io.files.reading_budget.time.monotonic", lambda: clock[0])
-    for budget, seconds in ((Budget(), 30.0), (Budget(3 * 256_000_000), 90.0)):
+    for budget, seconds in ((ReadingBudget(), 30.0), (ReadingBudget(3 * 256_000_000), 90.0)):
         clock[0] = 0.0
         meter = budget.of("a", 2_000_000)
         clock[0] = seconds

@@ -130,7 +130,7 @@ def test_what_unpacks_to_too_much_is_refused(tmp_path, way):
 def test_a_person_may_state_more_memory_or_less(tmp_path, way):
     path = tmp_path / "run.csv.gz"
     path.write_bytes(WAYS[way](CSV + b"\n" * 500_000))
-    with pytest.raises(InputError, match=r"more than 400\.0 kB once it is read"):
+    with pytest.raises(InputError, match=r"more than 0\.4 MB once it is read"):
         read_recording(path, ReadOptions(max_memory=400_000))
     assert len(read_recording(path, ReadOptions(max_memory=100_000_000)).rate) == 6
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.table import Table
-from equipoise.io.files.reading_budget import Budget
+from equipoise.io.files.reading_budget import ReadingBudget
 from equipoise.io.formats.csv_table import FIRST_LINES, cut, table_in
 from equipoise.io.formats.long_text import LONG, PlainBlocks
 from equipoise.io.formats.text_blocks import Text
@@ -106,7 +106,7 @@ def long_result(text: str, layout: Layout, least: int) -> object:
     """Return what a text is in blocks, as one so long that pyarrow cuts those that are plain."""
     made = Text(lambda: in_blocks(text, least), LONG + 1)
     try:
-        return contents(table_in(made, "a.csv", layout, Budget().of("a.csv", LONG)))
+        return contents(table_in(made, "a.csv", layout, ReadingBudget().of("a.csv", LONG)))
     except InputError as error:
         return str(error)
 
@@ -132,7 +132,7 @@ def test_a_plain_text_is_the_same_table(text, least):
     assert long_result(text, AS_IT_IS, least) == result(text, AS_IT_IS)
 
 
-@settings(max_examples=count(3000, 150), deadline=None)
+@settings(max_examples=count(3000, 70), deadline=None)
 @given(texts(clean=False), st.one_of(st.just(AS_IT_IS), layouts), st.integers(0, 3000))
 def test_any_text_is_the_same_table(text, layout, least):
     assert long_result(text, layout, least) == result(text, layout)
@@ -215,7 +215,7 @@ def test_a_fault_in_a_later_block_keeps_its_line_and_its_text():
     lines = ["t,a,b", *[f"{0.001 * k!r},{0.1 * k!r},{-0.7 * k!r}" for k in range(ROWS)]]
     lines[160], lines[165] = "7.0", "7.0,seven,1.0"
     text = Text(lambda: in_blocks("\n".join(lines), 100), LONG + 1)
-    table = table_in(text, "a.csv", AS_IT_IS, Budget().of("a.csv", LONG))
+    table = table_in(text, "a.csv", AS_IT_IS, ReadingBudget().of("a.csv", LONG))
     assert table.faulty[0].where == "a.csv, line 161"
     (row,) = table.numbers("a").garbage.tolist()
     assert table.place(row) == "line 166"

@@ -8,7 +8,7 @@ import pytest
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
-from equipoise.io.files.reading_budget import Budget
+from equipoise.io.files.reading_budget import ReadingBudget
 from equipoise.io.formats.csv_table import table_in
 from equipoise.io.formats.text_blocks import BLOCK, FIRST, LONGEST, Text, text_in
 from equipoise.io.formats.text_rows import CELLS
@@ -16,14 +16,14 @@ from equipoise.model.errors import InputError
 
 PATH = Path("a.csv")
 ROWS = FIRST // 4  # of a text that has several blocks
-SMALL, USUAL = Budget(1_000_000), Budget()
+SMALL, USUAL = ReadingBudget(1_000_000), ReadingBudget()
 
 
-def text_of_bytes(data: bytes, budget: Budget = USUAL) -> Text:
+def text_of_bytes(data: bytes, budget: ReadingBudget = USUAL) -> Text:
     return text_in(Content.of(data, "a.csv", budget), PATH, "a table")
 
 
-def table_of_bytes(data: bytes, budget: Budget = USUAL) -> Table:
+def table_of_bytes(data: bytes, budget: ReadingBudget = USUAL) -> Table:
     content = Content.of(data, "a.csv", budget)
     return table_in(text_in(content, PATH, "a table"), "a.csv", Layout(), content.meter)
 
@@ -74,7 +74,7 @@ def test_what_takes_more_than_its_budget_is_refused_while_it_is_read() -> None:
     whole = lines(100_000).encode()
     with pytest.raises(InputError, match="--max-memory-mb 2 lets it take more"):
         table_of_bytes(whole, SMALL)
-    assert len(table_of_bytes(whole, Budget(20_000_000))) == 100_000
+    assert len(table_of_bytes(whole, ReadingBudget(20_000_000))) == 100_000
 
 
 def test_words_in_a_column_are_counted_as_well() -> None:

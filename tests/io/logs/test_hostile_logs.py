@@ -9,7 +9,7 @@ import pytest
 
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.files.file_content import Content
-from equipoise.io.files.reading_budget import MB, Budget, Meter
+from equipoise.io.files.reading_budget import Meter, ReadingBudget
 from equipoise.io.logs.dataflash_log import messages_of
 from equipoise.io.logs.log_topics import Sample, Topics
 from equipoise.io.logs.ros.ros2_database import connected
@@ -69,7 +69,7 @@ def test_a_database_that_makes_rows_of_nothing_is_refused(tmp_path, messages, wa
 
 def test_a_query_without_end_is_stopped(tmp_path):
     path = database(tmp_path / "run.db3", f"{TABLE} BLOB);")
-    over = Meter("log", 0, MB, -1.0)  # its time is over
+    over = Meter("log", 0, 1_000_000, -1.0)  # its time is over
     endless = "WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM n) SELECT * FROM n"
     with (
         closing(connected(path, over)) as found,
@@ -104,7 +104,7 @@ def test_what_a_folder_may_take_goes_by_its_files(tmp_path):
     """The file that marks it is small; a stated memory counts for all."""
     folder = bag_2(tmp_path / "run", {"/imu": IMU})
     assert len(read_recording(folder).rate) == 4
-    assert "more than 0.1 kB" in refused(folder, max_memory=100)
+    assert "more than 0.0001 MB" in refused(folder, max_memory=100)
 
 
 def test_a_name_with_signs_of_an_address_is_a_name(tmp_path):
@@ -124,8 +124,11 @@ def test_a_type_of_ros_1_that_only_has_a_known_name_is_left_aside(tmp_path):
 
 def test_frames_without_number_are_counted():
     """Each child frame of a tree is a source, with arrays of its own."""
-    topics, samples = Topics(Budget().of("log", 0)), [Sample(1, {}, part=str(k)) for k in range(MB)]
-    with pytest.raises(InputError, match=REMEDY):
+    topics, samples = (
+        Topics(ReadingBudget(20_000_000).of("log", 0)),
+        [Sample(1, {}, part=str(k)) for k in range(100_000)],
+    )
+    with pytest.raises(InputError, match="--max-memory-mb 40 lets"):
         topics.add("/tf", "tf2_msgs/msg/TFMessage", 1, samples)
 
 
@@ -168,7 +171,7 @@ def test_rows_of_every_log_are_counted(tmp_path, name, content):
     path = tmp_path / name
     path.write_bytes(content)
     assert len(read_recording(path, ReadOptions(max_memory=50_000)).attitude) > 4
-    assert "more than 1.0 kB once it is read" in refused(path, max_memory=1000)
+    assert "more than 0.001 MB once it is read" in refused(path, max_memory=1000)
 
 
 # --- Terminals ---------------------------------------------------------------------------------
@@ -190,7 +193,7 @@ def test_a_line_without_end_is_never_kept_whole():
 
 def test_a_log_of_many_days_is_put_in_order():
     """The terminal's clock begins anew each midnight, a thousand times."""
-    lines = Lines(Budget().of("log", 0))
+    lines = Lines(ReadingBudget().of("log", 0))
     for day in range(1000):
         for hour in (0, 8, 16):
             lines.take(f"{hour:02d}:00:01 {said(TURNED_LINE)}".encode())

@@ -9,7 +9,7 @@ import pytest
 
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.files.file_content import Content
-from equipoise.io.files.reading_budget import Budget
+from equipoise.io.files.reading_budget import ReadingBudget
 from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.mcap.mcap_repair import repair
 from equipoise.io.mcap.mcap_salvage import nothing, salvaged
@@ -49,7 +49,7 @@ class Counting(io.BytesIO):
 def read_in(content: bytes) -> int:
     """Return how many bytes are read of a file in one walk."""
     file = Counting(content)
-    salvaged(Content(file, len(content), Budget().of("log", len(content))), "log", nothing)
+    salvaged(Content(file, len(content), ReadingBudget().of("log", len(content))), "log", nothing)
     return file.count
 
 

@@ -76,7 +76,7 @@ def assert_part_of(observed: Recording, wanted: Recording) -> None:
 def test_times_and_values_come_back_to_the_last_bit(tmp_path):
     """Times of nine decimals, before zero too; numbers that have no short decimals."""
     rng = np.random.default_rng(4)
-    t = np.array([-2.000000001, -0.1, 0.3, 100.005, 12345.678901234, 1.7e9 + 0.25])
+    t = np.array([-2.000000001, -0.1, 0.3, 100.005, 12345.678901234, 9.7e6 + 0.25])
     values = rng.normal(size=(6, 3)) * 10.0 ** rng.integers(-12, 3, size=(6, 3))
     first = Recording(
         rate=Samples(t, values),

@@ -6,6 +6,7 @@ import pytest
 from equipoise.io.columns.read_options import BAD_ROWS, ReadOptions
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import exponential
+from equipoise.model.errors import InputError
 
 HEAD = "time_s,q_w,q_x,q_y,q_z,omega_x_rad_s,omega_y_rad_s,omega_z_rad_s\n"
 T = np.arange(20) * 0.1

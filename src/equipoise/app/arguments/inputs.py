@@ -14,7 +14,6 @@ from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.documents.plan_file import read_plan
-from equipoise.io.files.reading_budget import MB
 from equipoise.io.files.source_file import read_text
 from equipoise.io.recording.frame_check import check_frame
 from equipoise.io.recording.recording_file import check_names, read_recording
@@ -27,7 +26,7 @@ from equipoise.model.manoeuvre import Plan
 from equipoise.model.recording import Recording, arranged, arranged_devices, window
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
-from equipoise.model.units import MM
+from equipoise.model.units import MEGABYTE, MM
 
 if TYPE_CHECKING:
     from equipoise.app.arguments.options import Reading, Seeking
@@ -118,7 +117,7 @@ def memory_of(reading: "Reading", dashes: str = "") -> int | None:
     """Return how many bytes reading may take, if that is stated."""
     option = f"{dashes}max{'-' if dashes else '_'}memory{'-' if dashes else '_'}mb"
     stated = positive(option, reading.max_memory_mb)
-    return None if stated is None else int(stated * MB)
+    return None if stated is None else int(stated * MEGABYTE)
 
 
 def fitted(recording: Recording, testbed: Testbed) -> Recording:

@@ -109,7 +109,7 @@ def _replayed(file: str, driver: str, captured: Captured, reading: Reading) -> "
     from equipoise.app.arguments.inputs import memory_of, part_of, testbed_from
     from equipoise.app.runs.captured_bytes import recording_of_capture
     from equipoise.app.runs.captured_sensor import Stated, unit_of
-    from equipoise.io.files.reading_budget import Budget
+    from equipoise.io.files.reading_budget import ReadingBudget
     from equipoise.model.errors import InputError
 
     if reading.dialect is not None:
@@ -117,7 +117,7 @@ def _replayed(file: str, driver: str, captured: Captured, reading: Reading) -> "
     rate = positive("--rate-hz", captured.rate_hz)
     bed = None if captured.testbed is None else testbed_from(captured.testbed)
     stated = Stated(captured.laboratory, _settings(captured, reading))
-    unit, budget = unit_of(driver, bed, stated), Budget(memory_of(reading, "--"))
+    unit, budget = unit_of(driver, bed, stated), ReadingBudget(memory_of(reading, "--"))
     with counted("reading") as on_progress:
         recording = recording_of_capture(file, unit, rate, on_progress, budget)
     whole = reading.from_s is None and reading.to_s is None

@@ -40,6 +40,6 @@ def slug(platform: str) -> str:
 
 def free(folder: Path, suffix: str = "") -> Path:
     """Return a path that is not there yet: the one given, or with a number before its suffix."""
-    numbers = chain(("",), (f"_{k}" for k in count(2)))
-    paths = (folder.with_name(f"{folder.name}{number}{suffix}") for number in numbers)
-    return next(path for path in paths if not path.exists())
+    first = folder.with_name(f"{folder.name}{suffix}") if suffix else folder
+    numbered = (folder.with_name(f"{folder.name}_{k}{suffix}") for k in count(2))
+    return next(path for path in chain((first,), numbered) if not path.exists())

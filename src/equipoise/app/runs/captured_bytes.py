@@ -16,7 +16,7 @@ from equipoise.hardware.sensors.natnet_packet import cut_packets
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.io.files.file_content import USUAL, opened
-from equipoise.io.files.reading_budget import Budget, Meter
+from equipoise.io.files.reading_budget import Meter, ReadingBudget
 from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.byte_capture import CHUNK, Piece, Readable, stream_pieces
 from equipoise.io.logs.counted_file import CountedFile
@@ -103,7 +103,11 @@ class Capture:
 
 
 def recording_of_capture(
-    file: str, unit: SensorUnit, rate: float | None, reported: OnProgress, budget: Budget = USUAL
+    file: str,
+    unit: SensorUnit,
+    rate: float | None,
+    reported: OnProgress,
+    budget: ReadingBudget = USUAL,
 ) -> Recording:
     """Return the rows in a file of saved bytes, with notes of what was broken or left out."""
     with opened(file, WANTED, budget) as content, as_broken(file, "capture", WANTED):

@@ -25,7 +25,7 @@ PREFIX = "DICT_"
 THRESHOLD = 23
 # px, sd, chosen: all tags of an AprilGrid of 50 to 160 px are then found, sharp or out of focus.
 ROUNDED = 1.5
-MOST_PIXELS = 100_000_000  # of a picture, chosen: twice the largest camera on a bench
+SIDE = 10_000  # px, of a square as large as any picture may be (chosen: twice the largest camera's)
 
 
 def opencv(where: str) -> Any:
@@ -114,7 +114,7 @@ def _pixels(data: bytes) -> int:
 def decoded(data: bytes) -> Picture | None:
     """Return an encoded picture in greys; None for what is none, or larger than any camera's."""
     cv2 = opencv("camera")
-    if not 0 < _pixels(data) <= MOST_PIXELS:
+    if not 0 < _pixels(data) <= SIDE**2:
         return None
     try:
         return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from equipoise.hardware.camera.aruco import MOST_PIXELS, Picture, decoded, opencv
+from equipoise.hardware.camera.aruco import SIDE, Picture, decoded, opencv
 from equipoise.model.errors import InputError
 
 LARGEST = 400_000_000  # bytes of a picture (chosen: four for each pixel)
@@ -35,7 +35,7 @@ def picture_at(path: Path) -> Picture:
     """Return the picture in a file."""
     picture = decoded(_bytes_of(path))
     if picture is None:
-        wanted = f"one of {', '.join(SUFFIXES)}, of {MOST_PIXELS / 1e6:g} million pixels at most"
+        wanted = f"one of {', '.join(SUFFIXES)}, of {SIDE} x {SIDE} pixels at most"
         raise InputError(str(path), "no picture", wanted)
     return picture
 
@@ -68,10 +68,11 @@ def _of_video(path: Path, rate: float | None) -> Iterator[Taken]:
     try:
         if not video.isOpened():
             raise InputError(str(path), "no video that can be read", "a video file")
-        size = video.get(cv2.CAP_PROP_FRAME_WIDTH) * video.get(cv2.CAP_PROP_FRAME_HEIGHT)
-        if size > MOST_PIXELS:
-            wanted = f"at most {MOST_PIXELS / 1e6:g} million"
-            raise InputError(str(path), f"pictures of {size / 1e6:g} million pixels", wanted)
+        width = video.get(cv2.CAP_PROP_FRAME_WIDTH)
+        height = video.get(cv2.CAP_PROP_FRAME_HEIGHT)
+        if width * height > SIDE**2:
+            found = f"pictures of {width:g} x {height:g} pixels"
+            raise InputError(str(path), found, f"{SIDE} x {SIDE} at most")
         count = max(float(video.get(cv2.CAP_PROP_FRAME_COUNT)), 1.0)
         reported = float(video.get(cv2.CAP_PROP_FPS))
         if rate is None and not reported > 0:

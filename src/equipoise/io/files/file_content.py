@@ -12,12 +12,12 @@ from io import BufferedIOBase
 from pathlib import Path
 from typing import overload
 
-from equipoise.io.files.reading_budget import Budget, Meter
+from equipoise.io.files.reading_budget import Meter, ReadingBudget
 from equipoise.io.files.source_file import open_bytes, size_of
 from equipoise.model.errors import InputError
 
 BLOCK = 1 << 20  # bytes that are read at once (chosen)
-USUAL = Budget()
+USUAL = ReadingBudget()
 
 
 class Content:
@@ -28,7 +28,7 @@ class Content:
         self._size, self._at, self._block = size, 0, b""
 
     @classmethod
-    def of(cls, data: bytes, source: str, budget: Budget = USUAL) -> "Content":
+    def of(cls, data: bytes, source: str, budget: ReadingBudget = USUAL) -> "Content":
         """Return bytes in memory as a file's."""
         return cls(io.BytesIO(data), len(data), budget.of(source, len(data)))
 
@@ -109,7 +109,7 @@ def sha256_of(blocks: Iterable[bytes]) -> str:
 
 
 @contextmanager
-def opened(path: str | Path, wanted: str, budget: Budget = USUAL) -> Generator[Content]:
+def opened(path: str | Path, wanted: str, budget: ReadingBudget = USUAL) -> Generator[Content]:
     """Lend a file's content; ``wanted`` says what kind of file should be there.
 
     InputError if there is none, if it is empty, or no regular file.

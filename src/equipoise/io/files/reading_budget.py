@@ -10,16 +10,19 @@ import time
 from dataclasses import dataclass
 
 from equipoise.model.errors import InputError
+from equipoise.model.units import MEGABYTE
 
-MB = 1_000_000
 RATIO = 64  # bytes that one of a file may stand for (chosen: a record of a still bench has 20)
-LEAST, MOST = 256 * MB, 2000 * MB  # bytes (chosen: half of a small computer's memory)
+LEAST, MOST = (
+    int(256 * MEGABYTE),
+    int(2000 * MEGABYTE),
+)  # bytes (chosen: half of a small computer's memory)
 SECONDS, SECONDS_PER_MB = 20.0, 5.0  # chosen: ten times what the slowest reader takes
 CELL = 100  # bytes, chosen: of a text or a row of numbers as an object in memory
 
 
 @dataclass(frozen=True, slots=True)
-class Budget:
+class ReadingBudget:
     """What is stated of it; None: as the file's size has it."""
 
     memory: int | None = None  # bytes
@@ -29,7 +32,7 @@ class Budget:
         usual = min(max(RATIO * size, LEAST), MOST)
         memory = usual if self.memory is None else self.memory
         longer = max(memory / usual, 1.0)
-        return Meter(source, size, memory, longer * (SECONDS + SECONDS_PER_MB * size / MB))
+        return Meter(source, size, memory, longer * (SECONDS + SECONDS_PER_MB * size / MEGABYTE))
 
 
 class Meter:
@@ -53,20 +56,17 @@ class Meter:
     def check(self, count: int) -> None:
         """Raise InputError if so many bytes more are too many, or the time is over."""
         if count > self.left:
-            found = (
-                f"more than {in_mb(self._memory)} once it is read (the file has {in_mb(self.size)})"
-            )
-            raise InputError(self.source, found, self._wanted(2 * self._memory))
+            raise self.refused(f"more than {in_mb(self._memory)} once it is read")
         if time.monotonic() - self._begun > self._seconds:
-            found = f"not read within {self._seconds:.0f} s (the file has {in_mb(self.size)})"
-            raise InputError(self.source, found, self._wanted(2 * self._memory))
+            raise self.refused(f"not read within {self._seconds:.0f} s")
 
-    @staticmethod
-    def _wanted(memory: int) -> str:
-        option = f"--max-memory-mb {max(memory // MB, 1)}"
-        return f"a recording that takes less; if this is one, {option} lets it take more"
+    def refused(self, found: str) -> InputError:
+        """Return the error for what takes too much, with what to do about it."""
+        option = f"--max-memory-mb {max(round(2 * self._memory / MEGABYTE), 1)}"
+        wanted = f"a recording that takes less; if this is one, {option} lets it take more"
+        return InputError(self.source, f"{found} (the file has {in_mb(self.size)})", wanted)
 
 
 def in_mb(count: int) -> str:
     """Return bytes as people read them."""
-    return f"{count / MB:.0f} MB" if count >= 10 * MB else f"{count / 1000:.1f} kB"
+    return f"{count / MEGABYTE:.3g} MB"

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from equipoise.io.files.file_marks import binary_text
 from equipoise.model.errors import InputError
+from equipoise.model.units import MEGABYTE
 
 TEXT_CONTROL = frozenset(b"\t\n\r\f")
 MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
@@ -57,8 +58,8 @@ def read_bytes(path: str | Path, wanted: str, most: int = LARGEST) -> bytes:
         except OSError as error:
             raise InputError(str(path), error.strerror or str(error), wanted) from error
     if len(content) > most:
-        found = f"more than {most / 1e6:g} MB"
-        raise InputError(str(path), found, f"{wanted}, of {most / 1e6:g} MB at most")
+        found = f"more than {most / MEGABYTE:g} MB"
+        raise InputError(str(path), found, f"{wanted}, of {most / MEGABYTE:g} MB at most")
     if not content.strip():
         raise InputError(str(path), "an empty file", wanted)
     return content

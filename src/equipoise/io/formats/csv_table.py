@@ -16,7 +16,7 @@ import numpy as np
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.column_store import InMemory, Store
 from equipoise.io.columns.table import Table
-from equipoise.io.files.reading_budget import Budget, Meter
+from equipoise.io.files.reading_budget import Meter, ReadingBudget
 from equipoise.io.formats.header_rows import Header, header_of
 from equipoise.io.formats.long_text import PlainBlocks, is_for_arrow
 from equipoise.io.formats.table_parts import NotInPairs, TableParts
@@ -31,7 +31,7 @@ HELD = 30  # bytes that one of a text takes as rows of cells (chosen: of cells o
 
 def cut(text: str, source: str, layout: Layout) -> Table:
     """Return the table in a text."""
-    return table_in(Text.of(text), source, layout, Budget().of(source, len(text)))
+    return table_in(Text.of(text), source, layout, ReadingBudget().of(source, len(text)))
 
 
 def table_in(
@@ -49,7 +49,7 @@ def table_in(
 
 def table_of(rows: list[list[str]], lines: list[int], source: str, layout: Layout) -> Table:
     """Return the table in rows of cells and their lines, the header among them."""
-    found, meter = TextRows(rows, np.array(lines, dtype=np.int64)), Budget().of(source, 0)
+    found, meter = TextRows(rows, np.array(lines, dtype=np.int64)), ReadingBudget().of(source, 0)
     header = _header(found, source, layout)
     for in_pairs in (True, False):
         parts = TableParts(header, layout.decimal or ".", meter, in_pairs, InMemory())

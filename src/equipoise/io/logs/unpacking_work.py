@@ -1,7 +1,6 @@
 """How much is unpacked of a file, or tried in vain, whether it stays in memory or not."""
 
-from equipoise.io.files.reading_budget import MB, RATIO, Meter, in_mb
-from equipoise.model.errors import InputError
+from equipoise.io.files.reading_budget import RATIO, Meter, in_mb
 
 
 class Work:
@@ -15,8 +14,5 @@ class Work:
         """Count bytes that are about to be unpacked or tried."""
         self._done += count
         if self._done > self._most:
-            most, size = in_mb(self._most), in_mb(self._size)
-            found = f"more than {most} unpacked, or tried in vain (the file has {size})"
-            more = f"--max-memory-mb {2 * self._most // MB}"
-            wanted = f"a whole recording; if this is one, {more} lets it take more"
-            raise InputError(self.meter.source, found, wanted)
+            most = in_mb(self._most)
+            raise self.meter.refused(f"more than {most} unpacked, or tried in vain")

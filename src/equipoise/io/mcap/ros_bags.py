@@ -15,7 +15,7 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
-from equipoise.io.files.reading_budget import Budget
+from equipoise.io.files.reading_budget import ReadingBudget
 from equipoise.io.files.source_file import open_bytes, size_of
 from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.log_sources import chosen
@@ -42,7 +42,7 @@ def read_bag(path: Path, content: Content, options: ReadOptions) -> tuple[Table,
         if path.is_dir():
             files = bag_files(content, str(path))
             size = sum(_size(path / name) for name in files.names)
-            topics = Topics(Budget(options.max_memory).of(str(path), size))
+            topics = Topics(ReadingBudget(options.max_memory).of(str(path), size))
             for name in files.names:
                 notes += _add_file(path / name, files, topics)
         elif content.startswith(ROS_2):

@@ -16,7 +16,7 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.file_content import Content, opened, sha256_of
-from equipoise.io.files.reading_budget import Budget
+from equipoise.io.files.reading_budget import ReadingBudget
 from equipoise.io.formats.compressed import KINDS, ZIP, unpacked
 from equipoise.io.formats.csv_table import csv_text, table_in
 from equipoise.io.formats.mat_table import MAGIC as MAT
@@ -69,7 +69,9 @@ def content_of(path: Path, memory: int | None = None) -> Generator[Content]:
 
     ``memory``: bytes that reading may take; None: as the file's size has it.
     """
-    with opened(path / FOLDER_MARK if is_bag_folder(path) else path, WANTED, Budget(memory)) as it:
+    with opened(
+        path / FOLDER_MARK if is_bag_folder(path) else path, WANTED, ReadingBudget(memory)
+    ) as it:
         yield it
 
 
