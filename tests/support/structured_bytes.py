@@ -99,15 +99,15 @@ def table(content: bytes, rng: Rng) -> bytes:
     if kind < 0.4:
         rows = shaken(rows, rng, lambda row: shaken(row, rng, lambda _: str(value(rng))))
     elif kind < 0.6:
-        which, width = value(rng), max(map(len, rows))
+        which, width = value(rng), max(1, *map(len, rows))
         at = int(rng.integers(width))
         rows = [[*row[:at], str(which), *row[at + 1 :]] if k else row for k, row in enumerate(rows)]
     elif kind < 0.75:
-        at = int(rng.integers(max(map(len, rows))))
-        to = int(rng.integers(max(map(len, rows))))
+        at = int(rng.integers(max(1, *map(len, rows))))
+        to = int(rng.integers(max(1, *map(len, rows))))
         rows = [shifted(row, at, to) for row in rows]
     elif kind < 0.85:
-        rows = [*rows[:1], *rows[1:] * int(rng.integers(1, 1 + MOST_ROWS // len(rows)))]
+        rows = [*rows[:1], *rows[1:] * int(rng.integers(1, 2 + MOST_ROWS // len(rows)))]
     else:
         rows = shaken(rows, rng, lambda _: one(rng, ([], [""], ["#"], ["a"] * 3000, ["1;2"])))
     separator = one(rng, (",", ",", ",", ",", ";", "\t", " ", ", ", ",,", '","', "|"))
