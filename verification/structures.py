@@ -1,6 +1,5 @@
 """Valid files taken apart, changed, put together: does one raise, take too much or too long?"""
 
-import resource
 import tempfile
 import time
 import warnings
@@ -13,6 +12,7 @@ from tests.support.document_fuzz_targets import SHAKES as OF_DOCUMENTS
 from tests.support.document_fuzz_targets import TARGETS as DOCUMENTS
 from tests.support.file_fuzz_targets import TARGETS as FILES
 from tests.support.fuzz_target import Target, folder
+from tests.support.peak_memory import forget_peak, peak_mb
 from tests.support.structured_bytes import REGULAR
 from tests.support.structured_bytes import SHAKES as OF_FILES
 from tests.support.watched_files import WATCHER
@@ -34,7 +34,7 @@ class Tried:
     raised: tuple[str, ...]
     outside: tuple[str, ...]  # what was written elsewhere, or begun
     slowest: dict[str, float]  # s, by target
-    peak_mb: float  # of the whole process
+    peak_mb: float  # of the process while it reads
 
 
 def tried(seed: int) -> Tried:
@@ -43,20 +43,18 @@ def tried(seed: int) -> Tried:
     share = np.array([SHARES.get(each.name, 1.0) for each in TARGETS])
     picks = rng.choice(len(TARGETS), BATCH, p=share / share.sum())
     inputs, raised, slowest = dict.fromkeys(names(), 0), list[str](), dict.fromkeys(names(), 0.0)
-    WATCHER.found = []
+    WATCHER.found.clear()
+    peak = 0.0
     for target in (TARGETS[k] for k in picks):
         content = SHAKES[target.name](target.valid(), rng)[:REGULAR]
+        forget_peak()
         begun = time.perf_counter()
         with WATCHER.watching(str(folder()), tempfile.gettempdir()):
             raised += _raised(target, content)
         slowest[target.name] = max(slowest[target.name], time.perf_counter() - begun)
         inputs[target.name] += 1
-    return Tried(inputs, tuple(raised), tuple(WATCHER.found), slowest, peak_mb())
-
-
-def peak_mb() -> float:
-    """Return how large this process has been at most."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1000
+        peak = max(peak, peak_mb())
+    return Tried(inputs, tuple(raised), tuple(WATCHER.found), slowest, peak)
 
 
 def names() -> list[str]:

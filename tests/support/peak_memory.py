@@ -1,4 +1,4 @@
-"""What reading a file takes: a process of its own reads it, and says how large it became."""
+"""What reading a file takes: how large a process became, this one or one of its own."""
 
 import json
 import subprocess
@@ -35,3 +35,15 @@ def reading_of(path: Path) -> Reading:
         [sys.executable, "-c", PROGRAM, str(path)], capture_output=True, text=True, check=True
     )
     return Reading(*json.loads(done.stdout))
+
+
+def forget_peak() -> None:
+    """Let the high-water mark of this process begin at what it has now."""
+    Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
+
+
+def peak_mb() -> float:
+    """Return how large this process has been since then."""
+    lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
+    (peak,) = (line.split()[1] for line in lines if line.startswith("VmHWM"))
+    return int(peak) / 1000

@@ -13,10 +13,8 @@ from equipoise.model.errors import InputError
 from equipoise.model.units import MEGABYTE
 
 RATIO = 64  # bytes that one of a file may stand for (chosen: a record of a still bench has 20)
-LEAST, MOST = (
-    int(256 * MEGABYTE),
-    int(2000 * MEGABYTE),
-)  # bytes (chosen: half of a small computer's memory)
+LEAST = int(256 * MEGABYTE)  # chosen: what the smallest file may take
+MOST = int(2000 * MEGABYTE)  # chosen: half of a small computer's memory
 SECONDS, SECONDS_PER_MB = 20.0, 5.0  # chosen: ten times what the slowest reader takes
 CELL = 100  # bytes, chosen: of a text or a row of numbers as an object in memory
 
