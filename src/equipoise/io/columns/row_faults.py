@@ -28,7 +28,7 @@ class RowFault(StrEnum):
     REPEATED = "with a duplicate time stamp"
     NOT_A_NUMBER = "with a value that is no number"
     SENTINEL = "with a number that stands for no reading"
-    BEYOND = "with a number that is beyond any in SI"
+    BEYOND = "with a number that no bench has"
     PARTLY_BLANK = "with a blank cell beside numbers"
     NOT_UNIT = "with a quaternion that has not unit length"
     NOT_ROTATION = "with a matrix that is no rotation"

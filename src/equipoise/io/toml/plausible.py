@@ -47,7 +47,7 @@ def implausible(key: str, value: object) -> str | None:
     """Return what is wanted instead of a number, or of a list with one, that is not believed."""
     most = largest(key)
     if any(abs(number) > most for number in _numbers(value)):
-        return f"a number between {-most:.3g} and {most:.3g}"
+        return f"a number no larger than {most:.3g}"
     return None
 
 
