@@ -11,16 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.support import thorough
-from tests.support.document_fuzz_targets import SHAKES as OF_DOCUMENTS
-from tests.support.document_fuzz_targets import TARGETS as DOCUMENTS
 from tests.support.driver_fuzz_targets import TARGETS as DEVICES
 from tests.support.file_fuzz_targets import TARGETS as FILES
 from tests.support.fuzz_target import folder
-from tests.support.structured_bytes import SHAKES as OF_FILES
 from tests.support.watched_files import WATCHER
+from verification.structures import SHAKES
+from verification.structures import TARGETS as STRUCTURED
 
-SHAKES = {**OF_FILES, **OF_DOCUMENTS}
-STRUCTURED = [each for each in (*FILES, *DOCUMENTS) if each.name in SHAKES]
 TRIED = 2000 // len(STRUCTURED) + 1  # of each; a million in ``verification.structures``
 ROOM = 1 << 30  # bytes that a reader may take
 EXAMPLES, FEWEST = int(os.environ.get("EQUIPOISE_FUZZ", thorough.count(150, 50))), 10

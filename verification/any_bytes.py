@@ -2,10 +2,11 @@
 
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tests.support.driver_fuzz_targets import TARGETS as DEVICES
 from tests.support.file_fuzz_targets import TARGETS as FILES
@@ -32,15 +33,21 @@ def tried(seed: int) -> Tried:
     """Try a batch, targets by their shares."""
     rng = np.random.default_rng(seed)
     share = np.array([each.share for each in TARGETS])
-    picks = rng.choice(len(TARGETS), BATCH, p=share / share.sum())
     inputs, raised, slowest = dict.fromkeys(names(), 0), [], dict.fromkeys(names(), 0.0)
-    for target in (TARGETS[k] for k in picks):
+    for target in picked(TARGETS, share, rng):
         content = mutated(target.valid(), rng)
         begun = time.perf_counter()
-        raised += _raised(target, content)
+        raised += raised_by(target, content)
         slowest[target.name] = max(slowest[target.name], time.perf_counter() - begun)
         inputs[target.name] += 1
     return Tried(inputs, tuple(raised), slowest)
+
+
+def picked(
+    targets: Sequence[Target], share: NDArray[np.float64], rng: np.random.Generator
+) -> Iterator[Target]:
+    """Yield the targets of a batch, by their shares."""
+    return (targets[k] for k in rng.choice(len(targets), BATCH, p=share / share.sum()))
 
 
 def names() -> list[str]:
@@ -48,7 +55,8 @@ def names() -> list[str]:
     return [each.name for each in TARGETS]
 
 
-def _raised(target: Target, content: bytes) -> list[str]:
+def raised_by(target: Target, content: bytes) -> list[str]:
+    """Return what an input raises that is not declared, as a sentence with its beginning."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -2,7 +2,6 @@
 
 import tempfile
 import time
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,19 +10,18 @@ import numpy as np
 from tests.support.document_fuzz_targets import SHAKES as OF_DOCUMENTS
 from tests.support.document_fuzz_targets import TARGETS as DOCUMENTS
 from tests.support.file_fuzz_targets import TARGETS as FILES
-from tests.support.fuzz_target import Target, folder
+from tests.support.fuzz_target import folder
 from tests.support.peak_memory import forget_peak, peak_mb
 from tests.support.structured_bytes import REGULAR
 from tests.support.structured_bytes import SHAKES as OF_FILES
 from tests.support.watched_files import WATCHER
+from verification.any_bytes import REPORTED, SLOWEST, picked, raised_by
 from verification.result import Result, Row, Spread, at_most, in_turn
 
 SHAKES = {**OF_FILES, **OF_DOCUMENTS}
 TARGETS = tuple(each for each in (*FILES, *DOCUMENTS) if each.name in SHAKES)
 SHARES = {"bag of ROS 2": 0.1, "Zstandard": 0.5, "gzip": 0.5}  # of the slow ones
-BATCH = 1000  # inputs to a seed
-SLOWEST, MOST_MB = 5.0, 1000.0  # s and MB that one input may take
-SHOWN, REPORTED = 400, 20  # bytes of an input that is told; errors that are
+MOST_MB = 1000.0  # that one input may take
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,16 +39,15 @@ def tried(seed: int) -> Tried:
     """Try a batch, targets by their shares."""
     rng = np.random.default_rng(seed)
     share = np.array([SHARES.get(each.name, 1.0) for each in TARGETS])
-    picks = rng.choice(len(TARGETS), BATCH, p=share / share.sum())
     inputs, raised, slowest = dict.fromkeys(names(), 0), list[str](), dict.fromkeys(names(), 0.0)
     WATCHER.found.clear()
     peak = 0.0
-    for target in (TARGETS[k] for k in picks):
+    for target in picked(TARGETS, share, rng):
         content = SHAKES[target.name](target.valid(), rng)[:REGULAR]
         forget_peak()
         begun = time.perf_counter()
         with WATCHER.watching(str(folder()), tempfile.gettempdir()):
-            raised += _raised(target, content)
+            raised += raised_by(target, content)
         slowest[target.name] = max(slowest[target.name], time.perf_counter() - begun)
         inputs[target.name] += 1
         peak = max(peak, peak_mb())
@@ -60,16 +57,6 @@ def tried(seed: int) -> Tried:
 def names() -> list[str]:
     """Return the names of all targets."""
     return [each.name for each in TARGETS]
-
-
-def _raised(target: Target, content: bytes) -> list[str]:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            target.take(content)
-    except Exception as error:  # whatever it is, it is told
-        return [f"{target.name}: {error!r}; input {content[:SHOWN].hex()}"]
-    return []
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:

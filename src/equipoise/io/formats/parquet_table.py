@@ -39,10 +39,11 @@ def _table(parquet: Any, content: Content) -> tuple[tuple[str, ...], Any]:
 
     A text that many rows share is held once: else some bytes of a file stand for gigabytes.
     """
-    texts = [each.name for each in _schema(parquet, content) if _is_text(each.type)]
-    file = parquet.ParquetFile(content.from_start(), read_dictionary=texts)
+    stated = parquet.read_metadata(content.from_start())
+    content.meter.check(_stated_size(stated))
+    texts = [each.name for each in stated.schema.to_arrow_schema() if _is_text(each.type)]
+    file = parquet.ParquetFile(content.from_start(), metadata=stated, read_dictionary=texts)
     schema = file.schema_arrow
-    content.meter.check(_stated_size(file.metadata))
     flat = [each.name for each in schema if each.type.num_fields == 0]
     batches: list[Any] = []
     for batch in file.iter_batches(BATCH, columns=flat):
@@ -51,10 +52,6 @@ def _table(parquet: Any, content: Content) -> tuple[tuple[str, ...], Any]:
     arrow = import_module("pyarrow")
     kept = arrow.schema([each for each in schema if each.name in flat])
     return tuple(schema.names), arrow.Table.from_batches(batches, kept)
-
-
-def _schema(parquet: Any, content: Content) -> Any:
-    return parquet.ParquetFile(content.from_start()).schema_arrow
 
 
 def _is_text(kind: Any) -> bool:
