@@ -29,8 +29,8 @@ RIGHT = {
 }
 # Of no kind that any field takes.
 NEVER = (None, {}, {"a": 1}, [], [1.0], object(), b"x", 1j, 1e308, -1e308, math.nan, math.inf,
-         10**400, -(10**5000), "a\x00b", "\x1b[31m", "a\nb", "\u202eabc", "\ud800",
-         "x" * 70_000)  # fmt: skip
+         10**400, -(10**5000), "a\x00b", "\x1b[31m", "a\nb", "\u202eabc", "a\u200bb", "\ufeffa",
+         "\ud800", "x" * 70_000)  # fmt: skip
 
 
 class Sent(list):

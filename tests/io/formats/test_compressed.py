@@ -139,7 +139,7 @@ def test_a_person_may_state_more_memory_or_less(tmp_path, way):
 @pytest.mark.parametrize("share", [0.3, 0.7, 0.99])
 def test_a_file_that_is_cut_short_is_refused(tmp_path, way, share):
     packed = WAYS[way](CSV)
-    with pytest.raises(InputError, match="cut short or broken"):
+    with pytest.raises(InputError, match="file that cannot be read"):
         read(tmp_path, packed[: int(share * len(packed))])
 
 

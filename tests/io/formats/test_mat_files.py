@@ -164,9 +164,13 @@ def test_texts_and_complex_numbers_of_version_4_are_left_aside():
 
 
 def test_a_matrix_of_version_4_that_is_cut_is_refused():
-    with pytest.raises(InputError, match=r"a broken MAT file \(a matrix beyond the end\)"):
+    with pytest.raises(
+        InputError, match=r"a MAT file that cannot be read \(a matrix beyond the end\)"
+    ):
         table(mat_4(SIMPLE)[:-1])
-    with pytest.raises(InputError, match=r"a broken MAT file \(byte \d+ begins no matrix\)"):
+    with pytest.raises(
+        InputError, match=r"a MAT file that cannot be read \(byte \d+ begins no matrix\)"
+    ):
         table(mat_4(SIMPLE) + b"more")
 
 

@@ -114,6 +114,16 @@ def test_a_name_with_signs_of_an_address_is_a_name(tmp_path):
     assert len(read_recording(moved).rate) == 4
 
 
+@pytest.mark.parametrize("broken", ["data = x'00010000ff'", "timestamp = -1, data = x'00'"])
+def test_a_message_of_a_bag_that_makes_no_sense_is_left_out(tmp_path, broken):
+    path = next(bag_2(tmp_path / "run", {"/imu": IMU}).glob("*.db3"))
+    with closing(sqlite3.connect(path)) as database, database:
+        database.execute(f"UPDATE messages SET {broken} WHERE rowid = 2")
+    found = read_recording(path)
+    assert len(found.rate) == 3
+    assert "1 messages made no sense, or had an impossible time; left out." in found.notes
+
+
 def test_a_type_of_ros_1_that_only_has_a_known_name_is_left_aside(tmp_path):
     """A bag says what its types are by their digests; ours are not those."""
     path = bag_1(tmp_path / "run.bag", {"/imu": IMU})

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from equipoise.io.columns.read_options import ReadOptions
+from equipoise.io.files.broken_bytes import as_broken
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import ReadingBudget
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.mcap.mcap_repair import repair
 from equipoise.io.mcap.mcap_salvage import nothing, salvaged
 from equipoise.io.recording.recording_file import read_recording
@@ -161,6 +161,7 @@ def test_a_repair_that_takes_too_much_leaves_no_file(tmp_path):
 # --- Depth -------------------------------------------------------------------------------------
 
 DEEP = "[" * 100_000
+LEFT_OUT = "1 messages made no sense, or had an impossible time; left out."
 RATE = b'{"x_rad_s": 0.5, "y_rad_s": 0, "z_rad_s": 0}'
 
 
@@ -198,7 +199,9 @@ def test_names_that_are_none_are_left_out(tmp_path, names):
 )
 def test_a_message_that_holds_no_numbers_is_left_out(tmp_path, first):
     (tmp_path / "run.mcap").write_bytes(ours("[]", first))
-    assert len(read_recording(tmp_path / "run.mcap").rate) == 4
+    found = read_recording(tmp_path / "run.mcap")
+    assert len(found.rate) == 4
+    assert LEFT_OUT in found.notes
 
 
 @pytest.mark.parametrize("zero", ["9" * 5000, "\u0663", "-1", "1e3", ""])
@@ -211,12 +214,17 @@ def test_a_zero_of_time_that_is_no_number_is_not_taken(tmp_path, zero):
 @pytest.mark.parametrize("data", [cdr_of_a_long_tree(), b"\0\1\0\0" + b"\xff" * 80, b""])
 def test_lengths_of_a_message_that_do_not_fit_it_leave_it_out(tmp_path, data):
     (tmp_path / "run.mcap").write_bytes(tree_of(data))
-    assert len(read_recording(tmp_path / "run.mcap").rate) == 4
+    found = read_recording(tmp_path / "run.mcap")
+    assert len(found.rate) == 4
+    assert LEFT_OUT in found.notes
 
 
 @pytest.mark.parametrize("error", [RecursionError("deep"), MemoryError(), OverflowError("int")])
 def test_whatever_a_parser_raises_is_one_sentence(error):
-    with pytest.raises(InputError, match="a broken log"), as_broken("a.bin", "log", "another"):
+    with (
+        pytest.raises(InputError, match="a log that cannot be read"),
+        as_broken("a.bin", "log", "another"),
+    ):
         raise error
 
 

@@ -154,5 +154,5 @@ def test_broken_parquet_is_named(tmp_path) -> None:
     whole = tmp_path / "r.parquet"
     write_recording(Recording(rate=Samples(t, np.ones((4, 3)))), whole)
     (tmp_path / "half.parquet").write_bytes(whole.read_bytes()[:100])
-    with pytest.raises(InputError, match="broken Parquet"):
+    with pytest.raises(InputError, match="a Parquet file that cannot be read"):
         read_recording(tmp_path / "half.parquet")

@@ -2,11 +2,15 @@
 
 import pytest
 
+from equipoise.io.logs import log_table
 from equipoise.io.recording import format_registry
 from equipoise.io.recording.recording_file import read_recording, read_table
 from equipoise.model.errors import InputError, UnforeseenError
+from tests.support.file_fuzz_targets import TARGETS
 
 READERS = (read_recording, read_table)
+OF_LOGS = ("log of", "bag of", "ULog", "MCAP")
+LOGS = [target for target in TARGETS if target.name.startswith(OF_LOGS)]
 
 
 @pytest.fixture
@@ -46,3 +50,17 @@ def test_memory_at_its_end_and_a_disk_that_fails_are_declared(failing, read):
 def test_a_person_who_stops_is_not_caught(failing, stop):
     with pytest.raises(stop):
         read_recording(failing(stop()))
+
+
+@pytest.mark.parametrize("target", LOGS, ids=lambda each: each.name)
+def test_a_fault_of_ours_in_a_log_is_not_called_a_broken_log(monkeypatch, target):
+    def cut(*_words):
+        raise TypeError("ours")
+
+    monkeypatch.setattr(log_table, "seconds", cut)
+    with pytest.raises(UnforeseenError, match="TypeError: ours"):
+        target.take(target.valid())
+
+
+def test_logs_of_every_kind_are_tried():
+    assert len(LOGS) == 7

@@ -17,12 +17,11 @@ from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.io.files.file_content import USUAL, opened
 from equipoise.io.files.reading_budget import Meter, ReadingBudget
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.byte_capture import CHUNK, Piece, Readable, stream_pieces
 from equipoise.io.logs.counted_file import CountedFile
 from equipoise.io.logs.pcap_capture import is_pcap, pcap_pieces
 from equipoise.io.logs.tlog_capture import is_tlog, tlog_pieces
-from equipoise.model.errors import InputError
+from equipoise.model.errors import InputError, declared
 from equipoise.model.hardware import Port, SensorUnit
 from equipoise.model.recording import Recording
 
@@ -110,7 +109,7 @@ def recording_of_capture(
     budget: ReadingBudget = USUAL,
 ) -> Recording:
     """Return the rows in a file of saved bytes, with notes of what was broken or left out."""
-    with opened(file, WANTED, budget) as content, as_broken(file, "capture", WANTED):
+    with declared(file, WANTED), opened(file, WANTED, budget) as content:
         beginning, stream = content[:CHUNK], CountedFile(content)
         port = _port(unit, is_pcap(beginning))
         capture, shown = Capture(content.meter, replace(unit, port=port), rate), 0

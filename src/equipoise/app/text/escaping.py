@@ -8,9 +8,10 @@ as an escape such as ``\x1b``: nothing runs, and nothing vanishes.
 
 import html
 import re
-import unicodedata
 from collections.abc import Callable, Iterator
 from typing import Any
+
+from equipoise.model.visible_text import is_visible
 
 KEPT = "\t"  # lays out our own texts, as line ends do
 SURROGATES = range(0xDC80, 0xDD00)  # bytes of a file's name that are no UTF-8, as Python has them
@@ -31,8 +32,7 @@ UNNAMED = "platform"
 def for_terminal(text: str) -> str:
     """Return a text in which nothing but line ends and tabs is invisible or acts.
 
-    Control characters of both sets, direction overrides, characters of no width, separators of
-    lines and paragraphs, lone surrogates and what no font has become escapes.
+    All else (``visible_text``) becomes escapes.
     """
     return _by_lines(text, _visible)
 
@@ -105,7 +105,7 @@ def _by_lines(text: str, visible: Callable[[str], str]) -> str:
 
 def _visible(letter: str) -> str:
     code = ord(letter)
-    if letter.isprintable() or letter in KEPT or unicodedata.category(letter) == "Zs":
+    if letter in KEPT or is_visible(letter):
         return letter
     if code in SURROGATES:
         return f"\\x{code & 0xFF:02x}"

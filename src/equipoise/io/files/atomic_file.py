@@ -23,7 +23,8 @@ def whole_file(path: str | Path) -> Generator[Path]:
     """Lend a temporary path of the same name; it becomes ``path`` if the block ends well."""
     target = _target(path)
     if target.exists() and not target.is_file():
-        yield target  # a device or a pipe has no half-written state and must not be replaced
+        with _named(path):
+            yield target  # a device or a pipe has no half-written state and must not be replaced
         return
     with _named(path), staging(target.parent) as place, _instead(place / target.name, path):
         temporary = place / target.name

@@ -11,9 +11,10 @@ from io import BufferedIOBase
 from pathlib import Path, PurePosixPath
 from typing import IO
 
+from equipoise.io.files.broken_bytes import as_broken
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.optional_libraries import extra_library
-from equipoise.model.errors import EquipoiseError, InputError
+from equipoise.model.errors import InputError
 
 GZIP, ZIP, ZSTD = b"\x1f\x8b", b"PK\x03\x04", b"\x28\xb5\x2f\xfd"
 KINDS = {GZIP: "gzip", ZIP: "zip", ZSTD: "Zstandard"}
@@ -30,13 +31,8 @@ def unpacked(content: Content, path: Path, suffixes: tuple[str, ...]) -> tuple[s
     InputError if the file is broken, unpacks to too much, or holds several.
     """
     kind = next(name for mark, name in KINDS.items() if content.startswith(mark))
-    try:
+    with as_broken(str(path), f"{kind} file", f"a whole {kind} file: copy it anew"):
         return _unpacked(content, path, suffixes)
-    except EquipoiseError:
-        raise
-    except Exception as error:  # a parser of broken bytes raises anything
-        found = f"a {kind} file that is cut short or broken ({error})"
-        raise InputError(str(path), found, f"a whole {kind} file: copy it anew") from error
 
 
 def _unpacked(content: Content, path: Path, suffixes: tuple[str, ...]) -> tuple[str, bytes]:

@@ -34,7 +34,7 @@ def read_mat(content: Content, source: str) -> Table:
     try:
         variables = _variables(content, source)
     except ValueError as error:
-        raise InputError(source, f"a broken MAT file ({error})", WANTED) from error
+        raise InputError(source, f"a MAT file that cannot be read ({error})", WANTED) from error
     columns, notes = table_columns(variables)
     if not columns:
         beside = f", only {listed(variables, variables)}" if variables else ""

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 
 from equipoise.io.columns.table import Numbers, Table, finite
+from equipoise.io.files.broken_bytes import as_broken
 from equipoise.io.files.file_content import Content
 from equipoise.model.arrays import Series1
-from equipoise.model.errors import EquipoiseError, InputError
+from equipoise.model.errors import InputError
 
 MAGIC = b"PAR1"  # a Parquet file begins and ends with it
 BATCH = 65536  # rows that are read at once (chosen)
@@ -23,12 +24,8 @@ BATCH = 65536  # rows that are read at once (chosen)
 def read_parquet(content: Content, source: str) -> Table:
     """Return the table in a Parquet file's bytes; lists and structures in it are not read."""
     parquet = _pyarrow("pyarrow.parquet", source)
-    try:
+    with as_broken(source, "Parquet file", "a whole Parquet file"):
         names, arrow = _table(parquet, content)
-    except EquipoiseError:
-        raise
-    except Exception as error:  # a parser of broken bytes raises anything
-        raise InputError(source, "broken Parquet", "a whole Parquet file") from error
     column = partial(_numbers, arrow=arrow)
     cell = partial(_cell, arrow=arrow)
     return Table(source, names, arrow.num_rows, column, cell=cell, blank="null")

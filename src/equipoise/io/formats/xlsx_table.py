@@ -13,17 +13,19 @@ from typing import Any
 
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.table import Table
+from equipoise.io.files.broken_bytes import as_broken, each_unbroken
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import CELL, Meter
 from equipoise.io.formats.compressed import ZIP
 from equipoise.io.formats.csv_table import table_of
 from equipoise.io.formats.header_rows import is_number
 from equipoise.io.formats.optional_libraries import extra_library
-from equipoise.model.errors import EquipoiseError, InputError
+from equipoise.model.errors import InputError
 
 WORKBOOK = "xl/workbook.xml"  # the file of an archive that makes it a workbook
 WANTED = "an Excel workbook with a sheet of a header and rows of numbers"
 INSTEAD = ", or save the sheet as CSV"
+BROKEN = "workbook", f"{WANTED}; save it anew in Excel{INSTEAD}"
 ROWS = 1 << 20  # of a sheet, at most (Excel's limit)
 CELLS = 1 << 24  # of a sheet, at most (chosen: 16 columns of all rows)
 TEXTS, TEXT = "sharedStrings.xml", 8  # bytes in memory for one there (chosen)
@@ -45,17 +47,12 @@ def is_workbook(content: Content) -> bool:
 def read_xlsx(content: Content, source: str, layout: Layout) -> Table:
     """Return the table in a workbook's bytes; InputError if it is broken or holds none."""
     library = extra_library("openpyxl", source, "an Excel workbook", "excel", INSTEAD)
-    try:
-        with warnings.catch_warnings():  # of what openpyxl leaves aside: styles, pictures
-            warnings.simplefilter("ignore")
+    with warnings.catch_warnings():  # of what openpyxl leaves aside: styles, pictures
+        warnings.simplefilter("ignore")
+        with as_broken(source, *BROKEN):
             _check_size(content)
             book = library.load_workbook(content.from_start(), read_only=True, data_only=True)
-            name, rows, lines = _sheet(book, source, content.meter)
-    except EquipoiseError:
-        raise
-    except Exception as error:  # a parser of broken bytes raises anything
-        found = f"a workbook that openpyxl cannot read ({error})"
-        raise InputError(source, found, f"{WANTED}; save it anew in Excel{INSTEAD}") from error
+        name, rows, lines = _sheet(book, source, content.meter)
     table = table_of(rows, lines, source, layout)
     others = ", ".join(f"'{sheet.title}'" for sheet in book.worksheets if sheet.title != name)
     note = f"Taken from sheet '{name}'; sheets left aside: {others}."
@@ -84,8 +81,8 @@ def _sheet(book: Any, source: str, meter: Meter) -> tuple[str, Rows, list[int]]:
 def _rows(sheet: Any, where: str, meter: Meter) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows that are not blank, each with its number in the sheet."""
     sheet.reset_dimensions()  # what a file states of its size may be wrong
-    cells = 0
-    for line, row in enumerate(sheet.iter_rows(values_only=True), 1):
+    cells, found = 0, each_unbroken(sheet.iter_rows(values_only=True), where, *BROKEN)
+    for line, row in enumerate(found, 1):
         cells += len(row)
         if line > ROWS or cells > CELLS:
             wanted = f"at most {ROWS} rows and {CELLS} cells; clear what is empty, or save as CSV"

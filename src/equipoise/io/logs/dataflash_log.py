@@ -31,7 +31,6 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import Meter
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -93,11 +92,10 @@ class Messages:
 
 def read_dataflash(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
-    with as_broken(source, "log", "a whole log of ArduPilot"):
-        log = messages_of(content)
-        damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
-        channels, notes = chosen(list(_sources(log)), source, options, BEST)
-        return log_table(content.meter, channels, None, (*damaged, *notes)), flight_map(channels)
+    log = messages_of(content)
+    damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
+    channels, notes = chosen(list(_sources(log)), source, options, BEST)
+    return log_table(content.meter, channels, None, (*damaged, *notes)), flight_map(channels)
 
 
 def messages_of(content: Content) -> Messages:

@@ -11,7 +11,7 @@ A twist or a vector in the axes of the laboratory is no rate in body axes: it to
 import re
 from array import array
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -20,6 +20,8 @@ import numpy as np
 from equipoise.io.files.reading_budget import Meter
 from equipoise.io.logs.log_sources import Best, Source
 from equipoise.io.logs.log_table import LogChannel
+from equipoise.io.logs.unpacking_work import Work
+from equipoise.io.logs.zstd_frames import unframed
 
 Values = Mapping[str, tuple[float, ...]]  # by channel: attitude (scalar first), rate ...
 POSE, TURN = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/QuaternionStamped"
@@ -31,6 +33,7 @@ ODOMETRY, IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
 FRAME_TRANSFORM, POSE_IN_FRAME = "foxglove.FrameTransform", "foxglove.PoseInFrame"
 ROW = 80  # bytes of a row, here and in the tables made of it (chosen: measured are 60)
 PART = 2000  # bytes of a source with its arrays (chosen)
+DECODED = 100  # bytes in memory for one of a message that is decoded (chosen)
 LATEST = 2**62  # ns since 1970, chosen: the year 2116; beyond, a count is no time
 BEST: Best = {
     "attitude": (
@@ -55,6 +58,18 @@ class Sample(NamedTuple):
     part: str = ""  # of its topic: the frame that is turned
 
 
+Decoder = Callable[[bytes], Sequence[Sample]]  # ValueError where a message makes no sense
+
+
+@dataclass(frozen=True, slots=True)
+class TopicReader:
+    """How the messages of one topic are read."""
+
+    name: str
+    kind: str
+    decoder: Decoder
+
+
 @dataclass(slots=True)
 class _Rows:
     """The rows of one source."""
@@ -64,11 +79,8 @@ class _Rows:
     ns: "dict[str, array[int]]" = field(default_factory=dict[str, "array[int]"])
     values: "dict[str, array[float]]" = field(default_factory=dict[str, "array[float]"])
 
-    def add(self, sample: Sample, logged: int) -> None:
-        """Take a sample in; one of an impossible time is left out."""
-        ns = sample.ns or logged
-        if not 0 <= ns < LATEST:
-            return
+    def add(self, sample: Sample, ns: int) -> None:
+        """Take a sample in."""
         self.count += 1
         self.frame = sample.frame
         for channel, row in sample.values.items():
@@ -94,20 +106,41 @@ class Topics:
     _rows: dict[tuple[str, str, str], _Rows] = field(
         default_factory=dict[tuple[str, str, str], _Rows]
     )
+    broken: int = 0  # messages that were left out
 
     def declare(self, name: str, kind: str, count: int) -> None:
         """Note that a topic is there, and how many messages it has."""
         self.counts[name, kind] = self.counts.get((name, kind), 0) + count
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Say what was left out."""
+        return left_out(self.broken)
+
+    def read(self, by: TopicReader, logged: int, raw: bytes, packed: Work | None = None) -> None:
+        """Take a message in; ``packed``: it is, and what unpacking it may take."""
+        try:
+            data = unframed(raw, packed) if packed else raw
+            self.meter.check(DECODED * len(data))
+            samples = by.decoder(data)
+        except ValueError:
+            self.broken += 1
+            return
+        self.add(by.name, by.kind, logged, samples)
+
     def add(self, name: str, kind: str, logged: int, samples: Sequence[Sample]) -> None:
         """Take in what a message holds; ``logged``: ns, where it has no stamp itself."""
         for sample in samples:
+            ns = sample.ns or logged
+            if not 0 <= ns < LATEST:
+                self.broken += 1
+                continue
             key = name, kind, sample.part
             if key not in self._rows:
                 self.meter.take(PART)
                 self._rows[key] = _Rows()
             self.meter.take(ROW * len(sample.values))
-            self._rows[key].add(sample, logged)
+            self._rows[key].add(sample, ns)
 
     def sources(self) -> list[Source]:
         """Return the sources, with what is the matter with those that cannot be used."""
@@ -120,6 +153,11 @@ class Topics:
         ]
         read = {(name, kind) for name, kind, _ in self._rows}
         return found + [Source(*key, n) for key, n in self.counts.items() if key not in read]
+
+
+def left_out(count: int) -> tuple[str, ...]:
+    """Say how many messages were left out."""
+    return (f"{count} messages made no sense, or had an impossible time; left out.",) * (count > 0)
 
 
 def _name(name: str, kind: str, part: str, several: bool) -> str:

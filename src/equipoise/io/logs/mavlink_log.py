@@ -27,7 +27,6 @@ from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.clock_units import PER_MS, PER_S, PER_US, nanoseconds
 from equipoise.io.formats.optional_libraries import extra_library
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.counted_file import CountedFile
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, chosen
@@ -80,22 +79,21 @@ class Telemetry:
 
 def read_tlog(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
-    with as_broken(source, "log", "a whole telemetry log"):
-        log = telemetry_of(content, source)
-        vehicle = log.vehicle
-        sources: list[Source] = []
-        began_anew = False
-        if vehicle is not None:
-            sources, began_anew = _sources(log, vehicle)
-        others = sum(len(rows) for sender, rows in log.messages.items() if sender != vehicle)
-        notices = (
-            (log.broken, f"The log is broken in {log.broken} places; left out."),
-            (others, f"{others} rows of other systems or components were left aside."),
-            (began_anew, "The vehicle's clock began anew; times are those at which rows arrived."),
-        )
-        channels, notes = chosen(sources, source, options, BEST)
-        notes = (*(text for count, text in notices if count), *notes)
-        return log_table(content.meter, channels, None, notes), flight_map(channels)
+    log = telemetry_of(content, source)
+    vehicle = log.vehicle
+    sources: list[Source] = []
+    began_anew = False
+    if vehicle is not None:
+        sources, began_anew = _sources(log, vehicle)
+    others = sum(len(rows) for sender, rows in log.messages.items() if sender != vehicle)
+    notices = (
+        (log.broken, f"The log is broken in {log.broken} places; left out."),
+        (others, f"{others} rows of other systems or components were left aside."),
+        (began_anew, "The vehicle's clock began anew; times are those at which rows arrived."),
+    )
+    channels, notes = chosen(sources, source, options, BEST)
+    notes = (*(text for count, text in notices if count), *notes)
+    return log_table(content.meter, channels, None, notes), flight_map(channels)
 
 
 def telemetry_of(content: Content, source: str) -> Telemetry:

@@ -44,7 +44,6 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import Meter
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -83,12 +82,11 @@ Instance = tuple[str, int]  # of a topic
 
 def read_ulog(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
-    with as_broken(source, "log", "a whole log of PX4"):
-        log = ulog_topics(content)
-        damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
-        channels, notes = chosen(list(_sources(log)), source, options, BEST)
-        table = log_table(content.meter, channels, None, (*damaged, *notes))
-        return table, flight_map(channels)
+    log = ulog_topics(content)
+    damaged = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
+    channels, notes = chosen(list(_sources(log)), source, options, BEST)
+    table = log_table(content.meter, channels, None, (*damaged, *notes))
+    return table, flight_map(channels)
 
 
 def _sources(log: "UlogTopics") -> Iterator[Source]:

@@ -24,7 +24,6 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import Meter
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, channel_of, chosen
 from equipoise.io.logs.log_table import LogChannel, log_table
@@ -103,18 +102,17 @@ def is_vectornav(content: bytes) -> bool:
 
 def read_vectornav(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none, or no clock."""
-    with as_broken(source, "log", "a terminal's log of a VectorNav"):
-        lines = Lines(content.meter)
-        for line in lines_of(content):
-            lines.take(line)
-        _check_timed(lines, source)
-        found = [
-            Source(name, name, len(rows), _channels(name, rows, lines.times[name]))
-            for name, rows in lines.rows.items()
-        ]
-        channels, notes = chosen(found, source, options, BEST)
-        notes = (*_left(lines), *notes, AXES)
-        return log_table(content.meter, channels, None, notes), flight_map(channels)
+    lines = Lines(content.meter)
+    for line in lines_of(content):
+        lines.take(line)
+    _check_timed(lines, source)
+    found = [
+        Source(name, name, len(rows), _channels(name, rows, lines.times[name]))
+        for name, rows in lines.rows.items()
+    ]
+    channels, notes = chosen(found, source, options, BEST)
+    notes = (*_left(lines), *notes, AXES)
+    return log_table(content.meter, channels, None, notes), flight_map(channels)
 
 
 def lines_of(content: Content) -> Iterator[bytes]:

@@ -33,8 +33,11 @@ def turned(kind: str, data: bytes) -> Turned:
 
 def turned_json(kind: str, data: bytes) -> Turned:
     """Return the same of a message in JSON."""
-    found: Any = json.loads(data)
-    stamp: Any = found.get("timestamp") or {}
-    turn: Any = reduce(lambda part, key: part[key], ROTATION[kind][1], found)
-    quaternion = float(turn["w"]), float(turn["x"]), float(turn["y"]), float(turn["z"])
-    return int(stamp.get("sec", 0)) * PER_S + int(stamp.get("nsec", 0)), quaternion
+    try:
+        found: Any = json.loads(data)
+        stamp: Any = found.get("timestamp") or {}
+        turn: Any = reduce(lambda part, key: part[key], ROTATION[kind][1], found)
+        quaternion = float(turn["w"]), float(turn["x"]), float(turn["y"]), float(turn["z"])
+        return int(stamp.get("sec", 0)) * PER_S + int(stamp.get("nsec", 0)), quaternion
+    except (AttributeError, LookupError, OverflowError, RecursionError, TypeError) as error:
+        raise ValueError(f"no {kind}") from error

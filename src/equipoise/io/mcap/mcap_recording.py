@@ -20,11 +20,17 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.log_sources import chosen, refuse_choice
 from equipoise.io.logs.log_table import LogChannel, log_map, log_table
-from equipoise.io.logs.log_topics import BEST, FRAME_TRANSFORM, LATEST
-from equipoise.io.mcap.foreign_mcap import DECODED, foreign_sources, is_foreign
+from equipoise.io.logs.log_topics import (
+    BEST,
+    DECODED,
+    FRAME_TRANSFORM,
+    LATEST,
+    Topics,
+    left_out,
+)
+from equipoise.io.mcap.foreign_mcap import add_foreign, is_foreign
 from equipoise.io.mcap.foxglove_messages import turned
 from equipoise.io.mcap.live_recording import METADATA, ZERO_KEY, LiveRecording, Opening
 from equipoise.io.mcap.log_messages import (
@@ -45,19 +51,23 @@ SLICE = 2.0  # s to a chunk of a file that is written in one go (chosen: what a 
 
 def read_mcap(content: Content, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return an MCAP file's rows and what they mean; InputError if there are none."""
-    with as_broken(source, "MCAP file", "a recording that is whole: try `equipoise repair`"):
-        return _read(salvaged(content, source, _is_read), source, options)
-
-
-def _read(found: Salvage, source: str, options: ReadOptions) -> tuple[Table, ColumnMap]:
+    found = salvaged(content, source, _is_read)
     notes, zero = loss_notes(found), time_zero(found)
     if zero is None:
-        channels, notices = chosen(foreign_sources(found, source), source, options, BEST)
-        return log_table(found.meter, channels, None, (*notes, *notices)), log_map(channels)
+        topics = Topics(found.meter)
+        add_foreign(found, source, topics)
+        channels, notices = chosen(topics.sources(), source, options, BEST)
+        notes = (*notes, *topics.notes, *notices)
+        return log_table(found.meter, channels, None, notes), log_map(channels)
     refuse_choice(options, source, "a recording of ours, which is read as a whole")
-    ours = _our_channels(found)
+    by_topic: dict[str, Any] = {each.topic: each for each in found.channels.values()}
+    present = [(name, by_topic[topic_of(name)]) for name in CHANNELS if topic_of(name) in by_topic]
+    made = (_our_channel(name, channel, found) for name, channel in present)
+    ours = [channel for channel in made if len(channel.ns)]
+    lost = sum(found.counted(channel.id) for _, channel in present)
+    lost -= sum(len(channel.ns) for channel in ours)
     known = replace(log_map(ours, ours=True), free_from=_free_from(found, zero))
-    return log_table(found.meter, ours, zero, notes), known
+    return log_table(found.meter, ours, zero, (*notes, *left_out(lost))), known
 
 
 def _is_read(channel: Any, schema: Any) -> bool:
@@ -110,14 +120,6 @@ def time_zero(found: Salvage) -> int | None:
     ours = [c for c in found.channels.values() if CHANNEL_KEY in c.metadata]
     # Garbled where the start stood: the first row is time zero then.
     return found.first if ours else None
-
-
-def _our_channels(found: Salvage) -> list[LogChannel]:
-    """Return the channels that we wrote, each of all its topics' messages."""
-    by_topic: dict[str, Any] = {each.topic: each for each in found.channels.values()}
-    here = ((name, by_topic.get(topic_of(name))) for name in CHANNELS)
-    made = (_our_channel(name, channel, found) for name, channel in here if channel is not None)
-    return [channel for channel in made if len(channel.ns)]
 
 
 def _our_channel(name: str, channel: Any, found: Salvage) -> LogChannel:

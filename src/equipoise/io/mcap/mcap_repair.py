@@ -8,11 +8,10 @@ from equipoise.io.files.atomic_file import whole_file
 from equipoise.io.files.file_content import opened
 from equipoise.io.formats.clock_units import PER_S
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.mcap.mcap_recording import time_zero
 from equipoise.io.mcap.mcap_salvage import Salvage, nothing, salvaged
 from equipoise.io.mcap.mcap_walk import Walk
-from equipoise.model.errors import InputError
+from equipoise.model.errors import InputError, declared
 
 WANTED = "a recording to repair (MCAP)"
 
@@ -36,10 +35,7 @@ def repair(path: str | Path, out: str | Path) -> Repaired:
     A file that is whole and has an index is left as it is. It is walked through twice: what stands
     in front of a file that is written is known when all of the other has been seen.
     """
-    with (
-        opened(path, WANTED) as content,
-        as_broken(str(path), "MCAP file", "a recording that opens"),
-    ):
+    with declared(str(path), WANTED), opened(path, WANTED) as content:
         found = salvaged(content, str(path), nothing)
         if not found.count:
             raise InputError(str(path), "no whole message", WANTED)

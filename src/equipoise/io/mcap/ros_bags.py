@@ -17,7 +17,6 @@ from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import ReadingBudget
 from equipoise.io.files.source_file import open_bytes, size_of
-from equipoise.io.logs.broken_bytes import as_broken
 from equipoise.io.logs.log_sources import chosen
 from equipoise.io.logs.log_table import log_map, log_table
 from equipoise.io.logs.log_topics import BEST, Topics
@@ -37,21 +36,21 @@ WANTED = "a whole bag of ROS"
 
 def read_bag(path: Path, content: Content, options: ReadOptions) -> tuple[Table, ColumnMap]:
     """Return a bag's rows and what they mean; InputError if it is broken or holds none."""
-    with as_broken(str(path), "bag", WANTED):
-        topics, notes = Topics(content.meter), list[str]()
-        if path.is_dir():
-            files = bag_files(content, str(path))
-            size = sum(_size(path / name) for name in files.names)
-            topics = Topics(ReadingBudget(options.max_memory).of(str(path), size))
-            for name in files.names:
-                notes += _add_file(path / name, files, topics)
-        elif content.startswith(ROS_2):
-            with _on_disk(path, content) as file:
-                add_database(file, topics)
-        else:
-            add_ros1(content, topics)
-        channels, taken = chosen(topics.sources(), str(path), options, BEST)
-        return log_table(topics.meter, channels, None, (*notes, *taken)), log_map(channels)
+    topics, notes = Topics(content.meter), list[str]()
+    if path.is_dir():
+        files = bag_files(content, str(path))
+        size = sum(_size(path / name) for name in files.names)
+        topics = Topics(ReadingBudget(options.max_memory).of(str(path), size))
+        for name in files.names:
+            notes += _add_file(path / name, files, topics)
+    elif content.startswith(ROS_2):
+        with _on_disk(path, content) as file:
+            add_database(file, topics)
+    else:
+        add_ros1(content, topics)
+    channels, taken = chosen(topics.sources(), str(path), options, BEST)
+    notes = (*notes, *topics.notes, *taken)
+    return log_table(topics.meter, channels, None, notes), log_map(channels)
 
 
 def _size(path: Path) -> int:

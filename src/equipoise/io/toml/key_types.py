@@ -1,7 +1,6 @@
 """Kinds of keys and tables that our TOML files are made of; directions as people write them."""
 
 import math
-import unicodedata
 from dataclasses import dataclass
 from typing import Annotated, Any, cast, get_args
 
@@ -19,6 +18,7 @@ from pydantic_core import PydanticCustomError
 from equipoise.io.toml.plausible import implausible
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
+from equipoise.model.visible_text import is_all_visible
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,20 +46,12 @@ def _tensor(value: Any) -> Any:
 
 def _visible(text: str) -> str:
     """Return a text as it is, if each of its characters is seen, and none turns the others."""
-    if any(unicodedata.category(character) in INVISIBLE for character in text):
+    if not is_all_visible(text):
         raise PydanticCustomError("unseen", VISIBLE)
     return text
 
 
 ITSELF = "."
-INVISIBLE = (
-    "Cc",
-    "Cf",
-    "Cs",
-    "Co",
-    "Zl",
-    "Zp",
-)  # format, line ends and the like
 VISIBLE = "text in one line, without control, direction or other invisible characters"
 TENSOR = "three moments [xx, yy, zz], or three rows [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]"
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]

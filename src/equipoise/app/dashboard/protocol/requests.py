@@ -9,16 +9,23 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, get_args
 
-from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError
 
 from equipoise.io.toml.plausible import SIZES
 from equipoise.model.errors import InputError
+from equipoise.model.visible_text import is_all_visible
 
 FASTEST = 100.0  # times, chosen
 LENGTH, LASTING = SIZES["length"], SIZES["time"]  # m, s
 LETTERS = 400  # of a text, chosen: a few lines
 SHOWN = 40  # characters of a found value that are repeated; chosen: half a line
-PLAIN = r"^[^\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]*$"  # no control, no change of direction
+
+
+def _visible(text: str) -> str:
+    if not is_all_visible(text):
+        raise ValueError
+    return text
+
 
 Length = Annotated[float, Field(
     ge=-LENGTH, le=LENGTH, allow_inf_nan=False,
@@ -27,8 +34,9 @@ Tolerance = Annotated[float, Field(
     gt=0, le=LENGTH, allow_inf_nan=False,
     description=f"a length above 0, at most {LENGTH:g} m")]  # fmt: skip
 Text = Annotated[str, Field(
-    max_length=LETTERS, pattern=PLAIN,
-    description=f"a text of at most {LETTERS} characters, no control character")]  # fmt: skip
+    max_length=LETTERS,
+    description=f"a text of at most {LETTERS} characters, each visible"), AfterValidator(_visible)
+]  # fmt: skip
 Flag = Annotated[bool, Field(description="true or false")]
 Factor = Annotated[float, Field(
     ge=0, le=FASTEST, allow_inf_nan=False,

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
+from equipoise.io.files.broken_bytes import as_value_error
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import CELL, Meter
 from equipoise.io.formats.matlab.mat_variables import DEEPEST, Array
 from equipoise.io.formats.optional_libraries import extra_library
-from equipoise.model.errors import EquipoiseError
 
 CLASS, EMPTY = "MATLAB_class", "MATLAB_empty"
 STRUCTURE = "struct"
@@ -34,13 +34,8 @@ def variables_73(content: Content, source: str) -> dict[str, Array]:
     InputError where they take too much. What stands in another file is not read.
     """
     h5py = extra_library("h5py", source, "a MAT file of version 7.3", "matlab", INSTEAD)
-    try:
-        with h5py.File(content.from_start(), "r") as file:
-            return dict(_arrays(file, "", DEEPEST, content.meter))
-    except EquipoiseError:
-        raise
-    except Exception as error:  # a parser of broken bytes raises anything
-        raise ValueError(str(error)) from error
+    with as_value_error(), h5py.File(content.from_start(), "r") as file:
+        return dict(_arrays(file, "", DEEPEST, content.meter))
 
 
 def _arrays(group: Any, prefix: str, deep: int, meter: Meter) -> Iterator[tuple[str, Array]]:

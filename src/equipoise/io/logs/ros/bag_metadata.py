@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
 
+from equipoise.io.files.broken_bytes import as_broken
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.model.errors import InputError
@@ -27,18 +28,20 @@ class BagFiles:
 
 
 def bag_files(content: Content, source: str) -> BagFiles:
-    """Return what is listed; InputError if it is more than any bag has, else raises if broken."""
+    """Return what is listed; InputError if it is more than any bag has, or broken."""
     where = f"{source}/{FOLDER_MARK}"
     if len(content) > LARGEST:
         raise InputError(where, f"{len(content)} bytes", f"{LARGEST} at most")
     text = content.whole()
-    _check_shape(text, where)
-    reader: Any = log_library("ruamel.yaml", source).YAML(typ="safe")
-    said: Any = reader.load(text)["rosbag2_bagfile_information"]
-    names = tuple(dict.fromkeys(PurePath(each).name for each in said["relative_file_paths"]))
-    packed = str(said.get("compression_mode") or "").lower()
-    found = BagFiles(names, str(said["storage_identifier"]), packed)
-    _check(found, said.get("compression_format"), where)
+    with as_broken(where, "list of files", WANTED):
+        _check_shape(text, where)
+        reader: Any = log_library("ruamel.yaml", source).YAML(typ="safe")
+        said: Any = reader.load(text)["rosbag2_bagfile_information"]
+        names = tuple(dict.fromkeys(PurePath(each).name for each in said["relative_file_paths"]))
+        packed = str(said.get("compression_mode") or "").lower()
+        found = BagFiles(names, str(said["storage_identifier"]), packed)
+        form: Any = said.get("compression_format")
+    _check(found, form, where)
     return found
 
 

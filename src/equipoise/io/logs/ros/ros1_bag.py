@@ -6,14 +6,17 @@ names the same rows again and again, each time counts.
 
 import struct
 from bz2 import BZ2Decompressor
+from collections.abc import Iterable
+from contextlib import closing
 from typing import Any
 
+from equipoise.io.files.broken_bytes import as_broken, each_unbroken
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.logs.counted_file import CountedFile
-from equipoise.io.logs.log_topics import Topics
+from equipoise.io.logs.log_topics import TopicReader, Topics
 from equipoise.io.logs.ros.ros_messages import is_known
-from equipoise.io.logs.ros.ros_types import DECODED, digest_of, ros_decoder
+from equipoise.io.logs.ros.ros_types import BROKEN, digest_of, ros_decoder
 from equipoise.io.logs.unpacking_work import Work
 
 ENTRY = 200  # bytes of an entry of an index as an object (chosen: measured are 180)
@@ -22,21 +25,20 @@ ANY = "*"  # the digest of a type that is not known
 
 
 def add_ros1(content: Content, topics: Topics) -> None:
-    """Add every topic of a bag, those of known types with their rows.
-
-    Raises whatever broken bytes make it raise.
-    """
-    source, meter = content.meter.source, content.meter
-    with _reader(content) as reader:
+    """Add every topic of a bag, of known types the rows; InputError if the bag is broken."""
+    source, reader = content.meter.source, _reader(content)
+    with as_broken(source, *BROKEN):
+        reader.open()
+    with closing(reader):
         for each in reader.connections:
             topics.declare(each.topic, each.msgtype, each.msgcount)
         known = [each for each in reader.connections if _is_read(each, source)]
         kinds = {each.msgtype for each in known}
         decoders = {kind: ros_decoder(kind, False, source) for kind in kinds}
-        for connection, logged, data in reader.messages(connections=known) if known else ():
-            meter.check(DECODED * len(data))
+        messages: Iterable[Any] = reader.messages(connections=known) if known else ()
+        for connection, logged, data in each_unbroken(messages, source, *BROKEN):
             kind = connection.msgtype
-            topics.add(connection.topic, kind, logged, decoders[kind](data))
+            topics.read(TopicReader(connection.topic, kind, decoders[kind]), logged, data)
 
 
 def _is_read(connection: Any, source: str) -> bool:

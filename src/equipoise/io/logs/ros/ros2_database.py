@@ -10,12 +10,12 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
+from equipoise.io.files.broken_bytes import said_by
 from equipoise.io.files.reading_budget import Meter
-from equipoise.io.logs.log_topics import PART, Topics
+from equipoise.io.logs.log_topics import PART, TopicReader, Topics
 from equipoise.io.logs.ros.ros_messages import is_known
-from equipoise.io.logs.ros.ros_types import DECODED, ros_decoder
+from equipoise.io.logs.ros.ros_types import BROKEN, ros_decoder
 from equipoise.io.logs.unpacking_work import Work
-from equipoise.io.logs.zstd_frames import unframed
 from equipoise.model.errors import InputError
 
 STEPS = 100_000  # of SQLite's machine, between two looks at the time (chosen: some ms)
@@ -26,22 +26,23 @@ TOPICS = "SELECT id, name, type, serialization_format FROM topics ORDER BY id"
 COUNTS = "SELECT topic_id, count(*) FROM messages GROUP BY topic_id"
 ROWS = """SELECT topic_id, timestamp, data FROM messages
     WHERE topic_id IN (SELECT id FROM topics WHERE type IN ({})) ORDER BY timestamp"""
-Known = dict[int, tuple[str, str]]  # name and type of a topic, by its number
+Known = dict[int, TopicReader]  # by the number of a topic
 
 
 def add_database(path: Path, topics: Topics, packed: Work | None = None) -> None:
     """Add every topic of a database, those of known types with their rows.
 
     ``packed``: each message is, and what unpacking them may take. InputError if all of it is too
-    much, else raises if it is broken.
+    much, or if it is broken.
     """
-    meter = topics.meter
-    with closing(connected(path, meter)) as database:
-        try:
+    meter, (kind, wanted) = topics.meter, BROKEN
+    try:
+        with closing(connected(path, meter)) as database:
             _add(database, topics, packed)
-        except sqlite3.Error:
-            meter.check(0)  # it may have been stopped
-            raise
+    except sqlite3.Error as error:
+        meter.check(0)  # it may have been stopped
+        found = f"a {kind} that cannot be read ({said_by(error)})"
+        raise InputError(meter.source, found, wanted) from error
 
 
 def connected(path: Path, meter: Meter) -> sqlite3.Connection:
@@ -68,16 +69,11 @@ def _is_over(meter: Meter) -> bool:
 
 def _add(database: sqlite3.Connection, topics: Topics, packed: Work | None) -> None:
     if database.execute(TABLES).fetchone() != (2,):
-        raise ValueError("no tables of topics and messages")
-    meter, known = topics.meter, _known(database, topics)
-    kinds = sorted({kind for _, kind in known.values()})
-    decoders = {kind: ros_decoder(kind, True, meter.source) for kind in kinds}
-    for number, logged, raw in _rows(database, kinds):
+        raise InputError(topics.meter.source, "no tables of topics and messages", BROKEN[1])
+    known = _known(database, topics)
+    for number, logged, raw in _rows(database, sorted({each.kind for each in known.values()})):
         if number in known:
-            name, kind = known[number]
-            data = unframed(raw, packed) if packed else raw
-            meter.check(DECODED * len(data))
-            topics.add(name, kind, logged, decoders[kind](data))
+            topics.read(known[number], logged, raw, packed)
 
 
 def _known(database: sqlite3.Connection, topics: Topics) -> Known:
@@ -87,7 +83,8 @@ def _known(database: sqlite3.Connection, topics: Topics) -> Known:
         topics.meter.take(PART)
         topics.declare(str(name), str(kind), counts.get(number, 0))
         if is_known(str(kind)) and form == "cdr":
-            known[number] = str(name), str(kind)
+            decoder = ros_decoder(str(kind), True, topics.meter.source)
+            known[number] = TopicReader(str(name), str(kind), decoder)
     return known
 
 

@@ -4,22 +4,28 @@ The few that are read have been the same in every release.
 """
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
+from equipoise.io.files.broken_bytes import as_value_error
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.logs.log_topics import OLD_TREE, TREE, Sample
+from equipoise.io.logs.log_topics import OLD_TREE, TREE, Decoder, Sample
 from equipoise.io.logs.ros.ros_messages import samples_of
 
-DECODED = 100  # bytes in memory for one of a message that is decoded (chosen)
-Decoder = Callable[[bytes], Sequence[Sample]]
+BROKEN = "bag", "a whole bag of ROS"
 
 
 def ros_decoder(kind: str, ros2: bool, source: str) -> Decoder:
     """Return how messages of a type are read: CDR of ROS 2, or what ROS 1 writes."""
     store = _store(log_library("rosbags.typesys", source), ros2)
     deserialise = store.deserialize_cdr if ros2 else store.deserialize_ros1
-    return lambda data: samples_of(kind, deserialise(data, kind))
+
+    def decode(data: bytes) -> Sequence[Sample]:
+        with as_value_error():
+            message = deserialise(data, kind)
+        return samples_of(kind, message)
+
+    return decode
 
 
 def digest_of(kind: str, source: str) -> str:
