@@ -1,6 +1,7 @@
 """`equipoise convert`, `repair` and `replay`."""
 
 import json
+import re
 
 import foxglove
 import numpy as np
@@ -14,6 +15,7 @@ from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, Samples, rows_between
+from tests.support.hostile_logs import mcap_that_lies
 
 
 @pytest.mark.parametrize("suffix", ["parquet", "mcap", "mat"])
@@ -125,6 +127,17 @@ def test_what_is_no_mcap_is_refused(equipoise, tmp_path):
     reported = equipoise("repair", "text.mcap", "--out", "out.mcap")
     assert reported.code == 2
     assert "no whole message" in reported.err
+
+
+def test_the_remedy_of_a_repair_that_takes_too_much_is_an_option_of_it(equipoise, tmp_path):
+    """The more memory it is given, the more is named as too little."""
+    (tmp_path / "lies.mcap").write_bytes(mcap_that_lies())
+    repaired = "repair", "lies.mcap", "--out", "out.mcap"
+    reported = equipoise(*repaired)
+    option, stated = re.search(r"(--max-memory-mb) (\d+)", reported.err.replace("\n", " ")).groups()
+    again = equipoise(*repaired, option, stated)
+    assert (reported.code, again.code) == (2, 2)
+    assert f"more than {stated} MB" in again.err.replace("\n", " ")
 
 
 def test_a_replay_prints_time_tilt_and_masses_each_second(equipoise, record_file):

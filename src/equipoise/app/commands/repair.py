@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from equipoise.io.mcap.mcap_repair import Repaired
 
 
-def repair(file: str, /, *, out: Path) -> int:
+def repair(file: str, /, *, out: Path, max_memory_mb: float | None = None) -> int:
     """Save every whole record of a cut or garbled recording, and say what is lost.
 
     What is written has an index, by which Foxglove finds its way in hours of it; a recording that
@@ -21,14 +21,21 @@ def repair(file: str, /, *, out: Path) -> int:
         Recording, as MCAP.
     out
         File to write, .mcap.
+    max_memory_mb
+        What reading the file may take, in MB. Left out: 64 times the file, at least 256, at most
+        2000.
     """
+    from equipoise.app.arguments.inputs import memory_of
+    from equipoise.app.arguments.options import Reading
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.blocks import paragraphs
     from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.files.reading_budget import ReadingBudget
     from equipoise.io.mcap.mcap_repair import repair as repaired
 
+    budget = ReadingBudget(memory_of(Reading(max_memory_mb=max_memory_mb), "--"))
     check_writable(out)
-    done = repaired(file, out)
+    done = repaired(file, out, budget)
     show(paragraphs(*_sentences(file, done)))
     if done.written:
         show_paths([out])

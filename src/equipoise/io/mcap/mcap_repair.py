@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from equipoise.io.files.atomic_file import whole_file
-from equipoise.io.files.file_content import opened
+from equipoise.io.files.file_content import USUAL, opened
+from equipoise.io.files.reading_budget import ReadingBudget
 from equipoise.io.formats.clock_units import PER_S
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.mcap_recording import time_zero
@@ -29,13 +30,13 @@ class Repaired:
         return not (self.found.whole and self.found.findable)
 
 
-def repair(path: str | Path, out: str | Path) -> Repaired:
+def repair(path: str | Path, out: str | Path, budget: ReadingBudget = USUAL) -> Repaired:
     """Write what is whole of a file to another, with an index; InputError if nothing is.
 
     A file that is whole and has an index is left as it is. It is walked through twice: what stands
     in front of a file that is written is known when all of the other has been seen.
     """
-    with declared(str(path), WANTED), opened(path, WANTED) as content:
+    with declared(str(path), WANTED), opened(path, WANTED, budget) as content:
         found = salvaged(content, str(path), nothing)
         if not found.count:
             raise InputError(str(path), "no whole message", WANTED)
