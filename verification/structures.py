@@ -1,7 +1,6 @@
 """Valid files taken apart, changed, put together: does one raise, take too much or too long?"""
 
 import tempfile
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -15,12 +14,12 @@ from tests.support.peak_memory import forget_peak, peak_mb
 from tests.support.structured_bytes import REGULAR
 from tests.support.structured_bytes import SHAKES as OF_FILES
 from tests.support.watched_files import WATCHER
-from verification.any_bytes import REPORTED, SLOWEST, picked, raised_by
+from verification.any_bytes import REPORTED, SLOWEST, picked, timed
 from verification.result import Result, Row, Spread, at_most, in_turn
 
 SHAKES = {**OF_FILES, **OF_DOCUMENTS}
 TARGETS = tuple(each for each in (*FILES, *DOCUMENTS) if each.name in SHAKES)
-SHARES = {"bag of ROS 2": 0.1, "Zstandard": 0.5, "gzip": 0.5}  # of the slow ones
+SHARES = {"bag of ROS 2": 0.1, "MAT of version 7.3": 0.1, "Zstandard": 0.5, "gzip": 0.5}  # slow
 MOST_MB = 1000.0  # that one input may take
 
 
@@ -45,10 +44,10 @@ def tried(seed: int) -> Tried:
     for target in picked(TARGETS, share, rng):
         content = SHAKES[target.name](target.valid(), rng)[:REGULAR]
         forget_peak()
-        begun = time.perf_counter()
         with WATCHER.watching(str(folder()), tempfile.gettempdir()):
-            raised += raised_by(target, content)
-        slowest[target.name] = max(slowest[target.name], time.perf_counter() - begun)
+            found, seconds = timed(target, content)
+        raised += found
+        slowest[target.name] = max(slowest[target.name], seconds)
         inputs[target.name] += 1
         peak = max(peak, peak_mb())
     return Tried(inputs, tuple(raised), tuple(WATCHER.found), slowest, peak)
@@ -73,7 +72,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
             f"of {sum(counts.values())} inputs raised what is not declared", len(raised), 0, "d"
         ),
         at_most("files written elsewhere, programs or connections begun", len(outside), 0, "d"),
-        at_most("slowest input, s", max(slowest.values()), SLOWEST),
+        at_most("slowest input, s of processor time", max(slowest.values()), SLOWEST),
         at_most("largest process, MB", max(each.peak_mb for each in batches), MOST_MB),
     )
     claim = (

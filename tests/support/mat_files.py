@@ -40,9 +40,22 @@ def mat_73(variables: Mapping[str, Any]) -> bytes:
         _filled(file, variables)
         cells = file.create_group("#refs#")
         cells.create_dataset("a", data=np.ones((2401, 3)))
-    content = stream.getvalue()
+    return _headed(stream)
+
+
+def mat_73_without_end() -> bytes:
+    """Return a text of no length in a heap of HDF5: its library seeks the next one for ever."""
+    stream = io.BytesIO()
+    with h5py.File(stream, "w", userblock_size=USER_BLOCK) as file:
+        file.create_dataset("time_s", data=np.arange(6.0)).attrs["MATLAB_class"] = "double"
+    content = _headed(stream)
+    size = content.index(b"GCOL") + 24
+    return content[:size] + bytes(8) + content[size + 8 :]
+
+
+def _headed(stream: io.BytesIO) -> bytes:
     head = TEXT.ljust(116) + bytes(8) + struct.pack("<H", 0x0200) + b"IM"
-    return head.ljust(USER_BLOCK, b"\0") + content[USER_BLOCK:]
+    return head.ljust(USER_BLOCK, b"\0") + stream.getvalue()[USER_BLOCK:]
 
 
 def _filled(group: Any, variables: Mapping[str, Any]) -> None:

@@ -38,7 +38,7 @@ class Meter:
 
     def __init__(self, source: str, size: int, memory: int, seconds: float) -> None:
         self.source, self.size = source, size
-        self._memory, self._seconds = memory, seconds
+        self._memory, self.seconds = memory, seconds
         self._taken, self._begun = 0, time.monotonic()
 
     @property
@@ -55,8 +55,8 @@ class Meter:
         """Raise InputError if so many bytes more are too many, or the time is over."""
         if count > self.left:
             raise self.refused(f"more than {in_mb(self._memory)} once it is read")
-        if time.monotonic() - self._begun > self._seconds:
-            raise self.refused(f"not read within {self._seconds:.0f} s")
+        if time.monotonic() - self._begun > self.seconds:
+            raise self.refused(f"not read within {self.seconds:.0f} s")
 
     def refused(self, found: str) -> InputError:
         """Return the error for what takes too much, with what to do about it."""

@@ -14,10 +14,10 @@ from scipy.io import savemat
 
 from equipoise.io.columns.table import Numbers, Table, finite
 from equipoise.io.files.file_content import Content
+from equipoise.io.formats.matlab.hdf5_process import variables_from_process
 from equipoise.io.formats.matlab.mat_variables import Array, listed, table_columns
 from equipoise.io.formats.matlab.mat_version_4 import is_version_4, variables_4
 from equipoise.io.formats.matlab.mat_version_5 import variables_5
-from equipoise.io.formats.matlab.mat_version_73 import variables_73
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
@@ -54,7 +54,7 @@ def read_mat(content: Content, source: str) -> Table:
 def _variables(content: Content, source: str) -> dict[str, Array]:
     """Return the arrays of a file by name; ValueError if it is broken."""
     if content.startswith(MAGIC_73):
-        return variables_73(content, source)
+        return variables_from_process(content, source)
     data = content.whole()
     read = variables_4 if is_version_4(data) else variables_5
     return read(data, content.meter)

@@ -3,7 +3,7 @@
 A variable is a data set, or for a structure a group of them, with its class in the attribute
 ``MATLAB_class``; dimensions stand the other way round; ``MATLAB_empty`` marks a data set that
 holds but the size of something empty; what begins with # is MATLAB's own. h5py is an extra,
-imported when such a file is met and not before.
+imported when such a file is met and not before, in a process of its own (``hdf5_process``).
 """
 
 import math
@@ -25,7 +25,7 @@ NUMBERS = {
     "uint64",
 }  # fmt: skip
 REAL = "fiu"  # kinds of NumPy's types
-INSTEAD = ", or in MATLAB `save(file, '-v7')`"
+MATLAB_73 = "a MAT file of version 7.3", "matlab", ", or in MATLAB `save(file, '-v7')`"
 
 
 def variables_73(content: Content, source: str) -> dict[str, Array]:
@@ -33,7 +33,7 @@ def variables_73(content: Content, source: str) -> dict[str, Array]:
 
     InputError where they take too much. What stands in another file is not read.
     """
-    h5py = extra_library("h5py", source, "a MAT file of version 7.3", "matlab", INSTEAD)
+    h5py = extra_library("h5py", source, *MATLAB_73)
     with as_value_error(), h5py.File(content.from_start(), "r") as file:
         return dict(_arrays(file, "", DEEPEST, content.meter))
 
