@@ -22,6 +22,7 @@ import numpy as np
 from equipoise.io.documents.logbook import open_logbook
 from equipoise.io.documents.run_file import text_of_run
 from equipoise.io.files.atomic_file import write_whole
+from equipoise.io.files.file_content import Content
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.testbed.presets import preset_text
 from equipoise.io.testbed.testbed_file import read_testbed
@@ -122,7 +123,7 @@ def of_record(left: Left) -> tuple[list[str], float]:
     path, fault = left.folder / RECORD, left.program.fault
     if not left.recorded:
         return [], 0.0
-    found = salvaged(path.read_bytes(), str(path))
+    found = salvaged(Content.of(path.read_bytes(), str(path)), str(path))
     ids = {each.id for each in found.channels.values() if each.topic in MOTION}
     stamps = np.array([each.log_time for each in found.messages if each.channel_id in ids]) * 1e-9
     wrong = ["less than there was"] * (path.stat().st_size < left.recorded)
