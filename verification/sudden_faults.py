@@ -274,4 +274,5 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     counts = Counter(run.action for run in runs if run.struck)
     shares = ", ".join(f"{name} {number}" for name, number in counts.items())
     notes = [f"Seed {r.seed}, {r.action}, {r.fault}: {'; '.join(r.wrong)}" for r in wrong]
+    notes += [f"Seed {r.seed}, {r.action}, {r.fault}: {r.lost:.1f} s" for r in runs if r.lost > LOSS]
     return Result("sudden_faults", claim, rows, (f"Struck: {shares}.", *notes))
