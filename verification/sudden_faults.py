@@ -264,7 +264,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         f"{', '.join(FAULTS)}. Every mass stands, at most {LOSS:g} s of a recording is lost, each "
         "file is whole or not there, and what command and page say is so."
     )
-    wrong = [run for run in runs if run.wrong]
+    wrong, late = ([r for r in runs if r.wrong], [r for r in runs if r.lost > LOSS])
     rows: tuple[Row, ...] = (
         at_most("endings with anything wrong", len(wrong), 0, "d"),
         at_most("greatest loss of a recording, s", max(run.lost for run in runs), LOSS),
@@ -274,5 +274,5 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     counts = Counter(run.action for run in runs if run.struck)
     shares = ", ".join(f"{name} {number}" for name, number in counts.items())
     notes = [f"Seed {r.seed}, {r.action}, {r.fault}: {'; '.join(r.wrong)}" for r in wrong]
-    notes += [f"Seed {r.seed}, {r.action}, {r.fault}: {r.lost:.1f} s" for r in runs if r.lost > LOSS]
+    notes += [f"Seed {r.seed}, {r.action}, {r.fault}: {r.lost:.1f} s lost" for r in late]
     return Result("sudden_faults", claim, rows, (f"Struck: {shares}.", *notes))
