@@ -83,7 +83,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
     try:
         with stoppable():
             return _run(arguments)
-    except (KeyboardInterrupt, SystemExit):
+    except KeyboardInterrupt as stop:  # it came when all was done
+        return _stopped(stop)
+    except SystemExit:
         raise
     except BaseException as error:  # a library in Rust panics with what is no Exception
         report_crash(error, sys.argv[1:] if arguments is None else arguments)
@@ -108,9 +110,13 @@ def _run(arguments: Sequence[str] | None) -> int:
     except OSError as error:
         complain(f"{error.filename or 'system'}: {error.strerror or error}")
     except KeyboardInterrupt as stop:
-        complain(": ".join((f"stopped by {cause_of(stop)}", *map(str, stop.args))))
-        return exit_code_of(stop)
+        return _stopped(stop)
     return WRONG_USE
+
+
+def _stopped(stop: KeyboardInterrupt) -> int:
+    complain(": ".join((f"stopped by {cause_of(stop)}", *map(str, stop.args))))
+    return exit_code_of(stop)
 
 
 def main() -> None:

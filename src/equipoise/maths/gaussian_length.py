@@ -115,6 +115,7 @@ def shortest(mean: Floats, C: Floats, Q: Square) -> float:
     size = float(values[-1])  # in its units there is none
     curvature, V = values[observed] / size, vectors[:, observed]
     g, z = V.T @ (C.T @ (Q @ mean)) / size, normal_points(int(observed.sum()))[:FEW]
+    V, g = np.where(g < 0, -V, V), np.abs(g)  # which way V points is chance, and z is not even
     radius, before = float(ndtri(SURE)), np.inf
     for turn in range(TURNS):
         if abs(radius - before) < CLOSE:

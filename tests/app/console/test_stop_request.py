@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 import pytest
 
+from equipoise.app import cli
 from equipoise.app.console import stop_request
 from equipoise.app.console.stop_request import Stopped, cause_of, exit_code_of, stoppable
 from equipoise.hardware.bench.stop_signals import HANG_UP, STOPPING
@@ -55,6 +56,18 @@ def test_each_signal_requests_a_stop_and_has_its_exit_code(number):
     assert exit_code_of(found.value) == EXIT_CODES[number.name]
     assert cause_of(found.value) == CAUSES[number.name]
     assert handlers() == before
+
+
+def test_a_signal_that_had_to_wait_until_all_was_done_ends_the_program_as_any(monkeypatch, capsys):
+    """Its handler was called where nothing may be raised; after that there is nothing to stop."""
+
+    def carried_out(_arguments):
+        signal.getsignal(signal.SIGTERM).__self__._pending = signal.SIGTERM
+        return 0
+
+    monkeypatch.setattr(cli, "_run", carried_out)
+    assert cli.run([]) == EXIT_CODES["SIGTERM"]
+    assert "stopped by SIGTERM" in capsys.readouterr().err
 
 
 def test_a_plain_keyboard_interrupt_counts_as_ctrl_c():

@@ -7,6 +7,7 @@ import time
 
 import pytest
 
+from equipoise.hardware.bench import port_lock
 from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.port_lock import BenchTaken, commanding
 from equipoise.hardware.emulated.counterpart import TcpCounterpart, counterpart
@@ -115,6 +116,16 @@ with commanding(["tcp:here:1", "serial:COM9"]):
     print("held", flush=True)
     sys.stdin.read()
 """
+
+
+def test_a_lock_that_cannot_be_made_is_a_sentence(monkeypatch):
+    def full():
+        raise FileNotFoundError(2, "No usable temporary directory found")
+
+    monkeypatch.setattr(port_lock.tempfile, "gettempdir", full)
+    wanted = "serial:COM7: found no lock of its port .* wanted a folder for temporary files"
+    with pytest.raises(InputError, match=wanted), commanding(["serial:COM7"]):
+        pass
 
 
 def test_one_commander_at_a_time_and_a_killed_one_leaves_nothing_behind():

@@ -12,6 +12,7 @@ commander alone. The keeper never waits for the commander: what it has to say wa
 
 import queue
 import threading
+import traceback
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -24,7 +25,7 @@ from equipoise.hardware.bench.bench_controller import BenchState, Keeper
 from equipoise.hardware.bench.stop_signals import leave_to_commander
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.links.health import Health
-from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.errors import BenchStopped, EquipoiseError, UnforeseenError
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
@@ -62,16 +63,29 @@ def run_keeper(pipe: Pipe, make: Callable[[Any], Kept], what: Any) -> None:
     box: queue.SimpleQueue[tuple[str, Any] | None] = queue.SimpleQueue()
     try:
         kept = make(what)
-    except EquipoiseError as error:
-        pipe.send(("answer", (0, error)))
+    except Exception as error:
+        pipe.send(("answer", (0, _declared(error))))
         return
     sender = threading.Thread(target=_send_all, args=(pipe, box), daemon=True)
     sender.start()
     box.put(("answer", (0, kept.clock.begun_ns)))
     try:
         _serve(pipe, kept, box)
+    except Exception as error:
+        box.put(("end", _declared(error)))
     finally:
         kept.close()
+    box.put(None)
+    sender.join(LEAVING)  # whatever is to be said is on its way
+
+
+def _declared(error: Exception) -> EquipoiseError:
+    """Return what a commander can be told; where it happened goes with it, for a crash file."""
+    if isinstance(error, EquipoiseError):
+        return error
+    unforeseen = UnforeseenError("the keeper of the bench", error)
+    unforeseen.add_note(traceback.format_exc())
+    return unforeseen
 
 
 def _serve(pipe: Pipe, kept: Kept, box: "queue.SimpleQueue[tuple[str, Any] | None]") -> None:
@@ -229,6 +243,8 @@ class DistantKeeper:
                 kind, what = self._pipe.recv()
                 if kind == "answer":
                     return what
+                if kind == "end":
+                    raise what
                 self._news = what
                 if what.rows is not None:
                     self._parts.append(what.rows)

@@ -8,11 +8,11 @@ import hashlib
 import os
 import tempfile
 from collections.abc import Generator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
-from equipoise.model.errors import EquipoiseError
+from equipoise.model.errors import EquipoiseError, InputError
 
 FOLDER = "equipoise-benches"
 
@@ -23,7 +23,10 @@ class BenchTaken(EquipoiseError):
 
 @contextmanager
 def commanding(addresses: Sequence[str]) -> Generator[None]:
-    """Hold the ports of a bench. Raises BenchTaken and says who holds one of them."""
+    """Hold the ports of a bench. Raises BenchTaken and says who holds one of them.
+
+    InputError where no lock can be made.
+    """
     with ExitStack() as held:
         for address in sorted(set(addresses)):
             held.enter_context(_held(address))
@@ -32,10 +35,7 @@ def commanding(addresses: Sequence[str]) -> Generator[None]:
 
 @contextmanager
 def _held(address: str) -> Generator[None]:
-    folder = Path(tempfile.gettempdir()) / FOLDER
-    folder.mkdir(exist_ok=True)
-    path = folder / f"{hashlib.sha256(address.encode()).hexdigest()[:16]}.lock"
-    with path.open("a+", encoding="utf-8") as file:
+    with _opened(address) as file:
         if not _lock(file):
             file.seek(0)
             by = file.read().strip() or "another process"
@@ -43,10 +43,23 @@ def _held(address: str) -> Generator[None]:
                 f"{address} is commanded by {by}; wait for it to end, or stop it; "
                 "any number of programs may observe meanwhile"
             )
-        file.truncate(0)
-        file.write(f"process {os.getpid()}")
-        file.flush()
+        with suppress(OSError):  # on a full disk nobody learns who holds it; it is held
+            file.truncate(0)
+            file.write(f"process {os.getpid()}")
+            file.flush()
         yield
+
+
+def _opened(address: str) -> IO[str]:
+    """Return the file to be locked for a port."""
+    try:
+        folder = Path(tempfile.gettempdir()) / FOLDER
+        folder.mkdir(exist_ok=True)
+        name = f"{hashlib.sha256(address.encode()).hexdigest()[:16]}.lock"
+        return (folder / name).open("a+", encoding="utf-8")
+    except OSError as error:
+        found = f"no lock of its port ({error.strerror or error})"
+        raise InputError(address, found, "a folder for temporary files with space in it") from error
 
 
 if os.name == "nt":  # pragma: no cover
