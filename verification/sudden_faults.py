@@ -23,6 +23,7 @@ from equipoise.io.documents.logbook import open_logbook
 from equipoise.io.documents.run_file import text_of_run
 from equipoise.io.files.atomic_file import write_whole
 from equipoise.io.files.file_content import Content
+from equipoise.io.mcap.mcap_recording import time_zero
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.testbed.presets import preset_text
 from equipoise.io.testbed.testbed_file import read_testbed
@@ -127,8 +128,9 @@ def of_record(left: Left) -> tuple[list[str], float]:
     ids = {each.id for each in found.channels.values() if each.topic in MOTION}
     stamps = np.array([each.log_time for each in found.messages if each.channel_id in ids]) * 1e-9
     wrong = ["less than there was"] * (path.stat().st_size < left.recorded)
-    if not len(stamps):
-        return [*wrong, "no row"], 0.0
+    if not len(stamps):  # it was begun within the last second, or all of it is lost
+        begun = time_zero(found)
+        return wrong, 0.0 if begun is None else max(left.program.at - begun * 1e-9, 0.0)
     if np.ptp(stamps) > left.program.moment.seconds + 120.0:
         wrong.append(f"a span of {np.ptp(stamps):.0f} s")
     # A record that was ended as it should be has lost nothing: what comes after is the report.
