@@ -70,7 +70,7 @@ def test_what_it_cannot_begin_with_is_its_answer(monkeypatch, error, kind, said)
     assert said in str(answer)
 
 
-def test_what_ends_it_is_told_after_the_masses_were_halted(monkeypatch):
+def test_what_ends_it_reaches_its_commander_and_the_masses_are_halted(monkeypatch):
     kept = Failing(TypeError("no"))
     begun, (name, error) = messages_of(monkeypatch, lambda _what: kept)
     assert begun == ("answer", (0, 5))
