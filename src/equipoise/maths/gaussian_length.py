@@ -113,9 +113,10 @@ def shortest(mean: Floats, C: Floats, Q: Square) -> float:
     if not observed.any():
         return float(lengths(mean[None], Q)[0])
     size = float(values[-1])  # in its units there is none
-    curvature, V = values[observed] / size, vectors[:, observed]
-    g, z = V.T @ (C.T @ (Q @ mean)) / size, normal_points(int(observed.sum()))[:FEW]
-    V, g = np.where(g < 0, -V, V), np.abs(g)  # which way V points is chance, and z is not even
+    curvature, axes = values[observed] / size, vectors[:, observed]
+    pull = C.T @ (Q @ mean) / size
+    V = axes * np.where(axes.T @ pull < 0, -1.0, 1.0)  # which way they point is chance
+    g, z = V.T @ pull, normal_points(int(observed.sum()))[:FEW]
     radius, before = float(ndtri(SURE)), np.inf
     for turn in range(TURNS):
         if abs(radius - before) < CLOSE:
