@@ -26,8 +26,7 @@ def as_broken(source: str, kind: str, wanted: str) -> Generator[None]:
     except EquipoiseError:
         raise
     except Exception as error:
-        found = f"a {kind} that cannot be read ({said_by(error)})"
-        raise InputError(source, found, wanted) from error
+        raise unreadable(source, kind, wanted, error) from error
 
 
 @contextmanager
@@ -51,6 +50,11 @@ def each_unbroken(items: Iterable[T], source: str, kind: str, wanted: str) -> It
             except StopIteration:
                 return
         yield item
+
+
+def unreadable(source: str, kind: str, wanted: str, error: Exception) -> InputError:
+    """Return the sentence on a file that its parser cannot read."""
+    return InputError(source, f"a {kind} that cannot be read ({said_by(error)})", wanted)
 
 
 def said_by(error: Exception) -> str:

@@ -13,6 +13,7 @@ from typing import Any, cast
 from scipy.io import savemat
 
 from equipoise.io.columns.table import Numbers, Table, finite
+from equipoise.io.files.broken_bytes import unreadable
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.matlab.hdf5_process import variables_from_process
 from equipoise.io.formats.matlab.mat_variables import Array, listed, table_columns
@@ -34,7 +35,7 @@ def read_mat(content: Content, source: str) -> Table:
     try:
         variables = _variables(content, source)
     except ValueError as error:
-        raise InputError(source, f"a MAT file that cannot be read ({error})", WANTED) from error
+        raise unreadable(source, "MAT file", WANTED, error) from error
     columns, notes = table_columns(variables)
     if not columns:
         beside = f", only {listed(variables, variables)}" if variables else ""

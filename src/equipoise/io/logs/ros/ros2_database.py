@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
-from equipoise.io.files.broken_bytes import said_by
+from equipoise.io.files.broken_bytes import unreadable
 from equipoise.io.files.reading_budget import Meter
 from equipoise.io.logs.log_topics import PART, TopicReader, Topics
 from equipoise.io.logs.ros.ros_messages import is_known
@@ -35,14 +35,13 @@ def add_database(path: Path, topics: Topics, packed: Work | None = None) -> None
     ``packed``: each message is, and what unpacking them may take. InputError if all of it is too
     much, or if it is broken.
     """
-    meter, (kind, wanted) = topics.meter, BROKEN
+    meter = topics.meter
     try:
         with closing(connected(path, meter)) as database:
             _add(database, topics, packed)
     except sqlite3.Error as error:
         meter.check(0)  # it may have been stopped
-        found = f"a {kind} that cannot be read ({said_by(error)})"
-        raise InputError(meter.source, found, wanted) from error
+        raise unreadable(meter.source, *BROKEN, error) from error
 
 
 def connected(path: Path, meter: Meter) -> sqlite3.Connection:
