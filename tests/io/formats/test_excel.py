@@ -79,6 +79,7 @@ def test_a_workbook_without_numbers_names_its_sheets():
 def test_a_sheet_that_states_a_place_beyond_all_is_refused(monkeypatch):
     """A row of number 99 999 999; five rows that are as wide as a sheet, of room for four."""
     monkeypatch.setattr("equipoise.io.formats.xlsx_table.CELLS", 4 * 16384)
+    monkeypatch.setattr("equipoise.io.formats.xlsx_table.ROWS", 4096)
     row = '<row r="99999999"><c r="A99999999"><v>1</v></c></row>'
     numbers = sheet_xml(RATE_SHEET)
     late = numbers.replace("</sheetData>", f"{row}</sheetData>")
