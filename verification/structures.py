@@ -14,7 +14,7 @@ from tests.support.peak_memory import forget_peak, peak_mb
 from tests.support.structured_bytes import REGULAR
 from tests.support.structured_bytes import SHAKES as OF_FILES
 from tests.support.watched_files import WATCHER
-from verification.any_bytes import REPORTED, SLOWEST, picked, timed
+from verification.any_bytes import REPORTED, SHOWN, SLOWEST, picked, timed
 from verification.result import Result, Row, Spread, at_most, in_turn
 
 SHAKES = {**OF_FILES, **OF_DOCUMENTS}
@@ -31,6 +31,7 @@ class Tried:
     raised: tuple[str, ...]
     outside: tuple[str, ...]  # what was written elsewhere, or begun
     slowest: dict[str, float]  # s, by target
+    late: tuple[str, ...]  # what took too long
     peak_mb: float  # of the process while it reads
 
 
@@ -39,6 +40,7 @@ def tried(seed: int) -> Tried:
     rng = np.random.default_rng(seed)
     share = np.array([SHARES.get(each.name, 1.0) for each in TARGETS])
     inputs, raised, slowest = dict.fromkeys(names(), 0), list[str](), dict.fromkeys(names(), 0.0)
+    late = list[str]()
     WATCHER.found.clear()
     peak = 0.0
     for target in picked(TARGETS, share, rng):
@@ -48,9 +50,11 @@ def tried(seed: int) -> Tried:
             found, seconds = timed(target, content)
         raised += found
         slowest[target.name] = max(slowest[target.name], seconds)
+        if seconds > SLOWEST:
+            late.append(f"{target.name}: {seconds:.1f} s; input {content[:SHOWN].hex()}")
         inputs[target.name] += 1
         peak = max(peak, peak_mb())
-    return Tried(inputs, tuple(raised), tuple(WATCHER.found), slowest, peak)
+    return Tried(inputs, tuple(raised), tuple(WATCHER.found), slowest, tuple(late), peak)
 
 
 def names() -> list[str]:
@@ -67,6 +71,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     slowest = {name: max(each.slowest[name] for each in batches) for name in names()}
     raised = [sentence for each in batches for sentence in each.raised]
     outside = [sentence for each in batches for sentence in each.outside]
+    late = [sentence for each in batches for sentence in each.late]
     rows: tuple[Row, ...] = (
         at_most(
             f"of {sum(counts.values())} inputs raised what is not declared", len(raised), 0, "d"
@@ -82,4 +87,5 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     )
     tries = ", ".join(f"{name} {counts[name]} ({slowest[name] * 1e3:.0f})" for name in names())
     note = f"Inputs of each, and the slowest of them in ms: {tries}."
-    return Result("structures", claim, rows, (note, *raised[:REPORTED], *outside[:REPORTED]))
+    wrong = *raised[:REPORTED], *outside[:REPORTED], *late[:REPORTED]
+    return Result("structures", claim, rows, (note, *wrong))

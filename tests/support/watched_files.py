@@ -34,8 +34,12 @@ class Watcher:
             self.found.append(f"{event} {words[:1]}")
         elif event in WRITING or (event == "open" and self._writes(words)):
             place = self._place(event, words)
-            if place and not place.startswith((*self.folders, "/dev/null")):
+            if place and not self._is_allowed(place):
                 self.found.append(f"{event} {place}")
+
+    def _is_allowed(self, place: str) -> bool:
+        """Say whether a file is in a folder, or Python's own of a module that it first imports."""
+        return place.startswith((*self.folders, "/dev/null")) or ".pyc" in Path(place).suffixes
 
     @staticmethod
     def _place(event: str, words: tuple[Any, ...]) -> str:

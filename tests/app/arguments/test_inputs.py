@@ -26,6 +26,15 @@ def test_blanks_and_commas_are_free(text):
     assert move_of(text, BED) == (60.0, pytest.approx({"x1": -0.01, "z1": 0.005}))
 
 
+BAD_MOVES = ["60", "60:", ": x1=1", "60 70: x1=1", "60: x1", "60: x1=", "60: =1", "60: x1=1,"]
+
+
+@pytest.mark.parametrize("text", [*BAD_MOVES, "60: ,x1=1", f"60: {'x1=1,' * 1000}!"])
+def test_what_is_no_move_is_refused_with_an_example(text):
+    with pytest.raises(InputError, match=r"wanted 'seconds: mass=mm mass=mm', such as"):
+        move_of(text, BED)
+
+
 def test_a_preset_needs_no_file():
     assert inputs.testbed_from("sputnix").name == BED.name
 

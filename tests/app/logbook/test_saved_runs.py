@@ -4,6 +4,8 @@ import csv
 import hashlib
 import json
 import shutil
+import sqlite3
+from contextlib import closing
 from dataclasses import replace
 from datetime import datetime, timedelta
 
@@ -144,6 +146,20 @@ def test_a_lost_index_is_made_anew(of, runs, strict_json):
     for path in runs.glob("logbook.sqlite*"):
         path.unlink()
     assert strict_json(of("--json").out) == before
+
+
+def test_an_index_that_cannot_be_read_is_named(of, runs):
+    """Its words for what is wrong are no text."""
+    of()
+    index = runs / "logbook.sqlite"
+    with closing(sqlite3.connect(index)) as opened:
+        opened.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    whole = index.read_bytes()
+    index.write_bytes(whole.replace(b"TABLE runs (", b"TABLE runs  ").replace(b"runs", b"r\xe5ns"))
+    done = of()
+    index.write_bytes(whole)
+    assert done.code == 2
+    assert "delete it, and it is made anew" in " ".join(done.err.split())
 
 
 def test_a_damaged_run_is_left_out_in_words(of, runs):

@@ -67,6 +67,14 @@ def test_a_database_that_makes_rows_of_nothing_is_refused(tmp_path, messages, wa
     assert wanted in refused(database(tmp_path / "run.db3", messages))
 
 
+def test_a_database_that_sqlite_speaks_of_in_broken_letters_is_refused(tmp_path):
+    """It names what it cannot read, in the bytes that the file has there."""
+    path = database(tmp_path / "run.db3", f"{TABLE} BLOB);")
+    broken = path.read_bytes().replace(b"TABLE messages(", b"TABLE messages ")
+    path.write_bytes(broken.replace(b"messages", b"messag\xe5s"))
+    assert "a bag that cannot be read" in refused(path)
+
+
 def test_a_query_without_end_is_stopped(tmp_path):
     path = database(tmp_path / "run.db3", f"{TABLE} BLOB);")
     over = Meter("log", 0, 1_000_000, -1.0)  # its time is over

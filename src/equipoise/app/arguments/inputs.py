@@ -36,7 +36,6 @@ AnyRecording = Recording | str | Path
 AnyPlan = Plan | str | Path
 TILT = math.radians(20.0)  # that torques are judged within, unless another is requested
 FEWEST = 3  # rows of a sensor that a window must leave, as when a file is read
-MOVE = re.compile(r"\s*(?P<time>[^:\s]+)\s*:\s*(?P<goals>\S+=\S+(?:[\s,]+\S+=\S+)*)\s*")
 WANTED_MOVE = "'seconds: mass=mm mass=mm', such as '60: x1=-10 z1=-50'"
 
 
@@ -174,16 +173,16 @@ def options_of(seeking: "Seeking", budget: Budget = UNLIMITED) -> Options:
 
 def move_of(text: str, testbed: Testbed) -> tuple[float, dict[str, float]]:
     """Return time (s) and displacements from home (m) of a move such as '60: x1=-10 z1=-50'."""
-    read = MOVE.fullmatch(text)
-    if read is None:
+    start, _, goals = map(str.strip, text.partition(":"))
+    pairs = [goal.partition("=")[::2] for goal in re.split(r"[\s,]+", goals)]
+    if len(start.split()) != 1 or not all(name and mm for name, mm in pairs):
         raise InputError("--move", f"'{text}'", WANTED_MOVE)
-    pairs = [goal.split("=", 1) for goal in re.split(r"[\s,]+", read["goals"])]
     known = [mass.name for mass in testbed.masses]
     for name, _ in pairs:
         if name not in known:
             wanted = nearest(name, known) if known else "no move: the testbed has no masses"
             raise InputError(f"--move '{text}'", f"mass '{name}'", wanted)
-    time = _number("time_s", read["time"], text)
+    time = _number("time_s", start, text)
     return time, {name: _number("place_mm", mm, text) * MM for name, mm in pairs}
 
 

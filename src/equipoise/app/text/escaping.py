@@ -16,7 +16,7 @@ from equipoise.model.visible_text import is_visible
 KEPT = "\t"  # lays out our own texts, as line ends do
 SURROGATES = range(0xDC80, 0xDD00)  # bytes of a file's name that are no UTF-8, as Python has them
 RUN_BY_SPREADSHEETS = ("=", "+", "-", "@", "\t", "\r", "＝", "＋", "－", "＠")  # noqa: RUF001
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|nan)")
+NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|nan)")
 NOT_IN_FILE_NAMES = re.compile(r"[^\w.]+")
 LONGEST = 40  # letters of a name within a file's name, chosen
 RESERVED = {

@@ -31,7 +31,7 @@ from equipoise.model.reading import Reading
 
 KEYS = ("format", "columns", "send")
 FORMATS = ("csv", "json")
-PARTED = re.compile(rb"\s*[,;\s]\s*")
+PARTED = re.compile(rb"\s*[,;]\s*|\s+")
 WORDS = re.compile(rb"[#A-Za-z]")  # a heading or a remark begins so, a row of numbers does not
 WHOLE = ("udp:", "udpout:", "ws:", "wss:")  # ports whose messages hold whole lines
 

@@ -49,7 +49,7 @@ def open_logbook(folder: Path) -> Generator["Logbook"]:
             yield logbook
         finally:
             index.close()
-    except sqlite3.Error as error:
+    except (sqlite3.Error, UnicodeDecodeError) as error:  # what SQLite says need not be text
         raise InputError(str(path), str(error), REMADE) from error
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from equipoise.io.columns.table import Numbers
 from equipoise.model.arrays import Series1
 
-FORTRAN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))[dD]([+-]?\d+)")  # an exponent of double precision
+FORTRAN = re.compile(r"([+-]?(?:\d+(?:\.\d*)?|\.\d+))[dD]([+-]?\d+)")  # 1.0D+00
 NAN = frozenset({"nan", "na", "n/a", "#n/a", "null", "none", "-", "--"})  # words for no number
 
 
@@ -19,9 +19,10 @@ def numbers_of(cells: Sequence[str], decimal: str) -> Numbers:
     empty = np.flatnonzero(~np.isfinite(values))
     if not len(empty):
         return Numbers(values)
-    words = [cells[row].strip().lower() for row in empty.tolist()]
-    nan = np.array([word in NAN for word in words], dtype=bool)
-    garbage = np.array([bool(word) and word not in NAN for word in words], dtype=bool)
+    words = [cells[row] for row in empty.tolist()]
+    plain = {word: word.strip().lower() for word in set(words)}  # a column repeats its words
+    nan = np.array([plain[word] in NAN for word in words], dtype=bool)
+    garbage = np.array([plain[word] != "" for word in words], dtype=bool) & ~nan
     values[empty] = np.nan
     return Numbers(values, empty[nan], empty[garbage])
 
@@ -32,7 +33,8 @@ def _values(cells: Sequence[str], decimal: str) -> Series1:
             return np.array([float(cell) if cell else math.nan for cell in cells])
         return np.fromiter(map(float, cells), np.float64, len(cells))
     except ValueError:
-        return np.array([_number(cell, decimal) for cell in cells])
+        found = {cell: _number(cell, decimal) for cell in set(cells)}
+        return np.array([found[cell] for cell in cells])
 
 
 def _number(cell: str, decimal: str) -> float:
@@ -43,10 +45,9 @@ def _number(cell: str, decimal: str) -> float:
 
 def number_in(cell: str, decimal: str) -> float | None:
     """Return the number that a cell holds, also as Fortran prints it (1.0D+00); else None."""
-    text = cell.strip()
-    text = text.replace(",", ".") if decimal == "," else text
-    fortran = FORTRAN.fullmatch(text)
+    text = cell.replace(",", ".") if decimal == "," else cell
     try:
-        return float(f"{fortran[1]}e{fortran[2]}" if fortran else text)
+        return float(text)
     except ValueError:
-        return None
+        fortran = FORTRAN.fullmatch(text.strip())
+        return float(f"{fortran[1]}e{fortran[2]}") if fortran else None

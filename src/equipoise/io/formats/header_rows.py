@@ -1,6 +1,5 @@
 """The header of a table among its first rows: names, a row of units, or none at all."""
 
-import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +13,6 @@ from equipoise.model.errors import InputError
 
 SHARE = 0.5  # of a row's filled cells that must be numbers for it to hold data (chosen)
 ABOVE = 3  # filled cells that a line above the header needs to belong to it (chosen)
-BARE = re.compile(r"^[\[(]?\s*(.*?)\s*[\])]?$")  # a unit without its brackets
 # Units as others write them, and what says that there is none.
 UNITS = frozenset({*TO_SI, "", "-", "1", "none", "°", "°/s", "deg/sec", "rad/sec", "sec", "µs"})
 
@@ -91,8 +89,10 @@ def _holds_units(row: list[str], above: list[str]) -> bool:
 
 
 def _bare(cell: str) -> str:
-    found = BARE.match(cell.strip())
-    return found[1] if found else cell.strip()
+    """Return a unit without its brackets."""
+    bare = cell.strip()
+    bare = bare[1:].lstrip() if bare.startswith(("[", "(")) else bare
+    return bare[:-1].rstrip() if bare.endswith(("]", ")")) else bare
 
 
 def _column_names(rows: list[list[str]], head: int, end: int) -> tuple[str, ...]:

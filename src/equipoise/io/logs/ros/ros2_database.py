@@ -2,15 +2,17 @@
 
 A database may hold more than rows: a view or a computed column makes rows without end, and values
 of any size, of nothing. So the two tables have to be tables, no value is larger than what is left,
-and SQLite is stopped where the time is over.
+and SQLite is stopped where the time is over. What SQLite says of a broken one need not be text:
+Python raises UnicodeDecodeError then.
 """
 
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
+from typing import Any
 
-from equipoise.io.files.broken_bytes import unreadable
+from equipoise.io.files.broken_bytes import as_broken, each_unbroken
 from equipoise.io.files.reading_budget import Meter
 from equipoise.io.logs.log_topics import PART, TopicReader, Topics
 from equipoise.io.logs.ros.ros_messages import is_known
@@ -35,13 +37,10 @@ def add_database(path: Path, topics: Topics, packed: Work | None = None) -> None
     ``packed``: each message is, and what unpacking them may take. InputError if all of it is too
     much, or if it is broken.
     """
-    meter = topics.meter
-    try:
-        with closing(connected(path, meter)) as database:
-            _add(database, topics, packed)
-    except sqlite3.Error as error:
-        meter.check(0)  # it may have been stopped
-        raise unreadable(meter.source, *BROKEN, error) from error
+    with as_broken(topics.meter.source, *BROKEN):
+        database = connected(path, topics.meter)
+    with closing(database):
+        _add(database, topics, packed)
 
 
 def connected(path: Path, meter: Meter) -> sqlite3.Connection:
@@ -66,30 +65,38 @@ def _is_over(meter: Meter) -> bool:
     return False
 
 
+def _answers(
+    database: sqlite3.Connection, meter: Meter, query: str, *words: str
+) -> Iterator[tuple[Any, ...]]:
+    """Yield the rows of an answer; InputError if it cannot be read, or takes too much."""
+    broken = meter.source, *BROKEN
+    try:
+        with as_broken(*broken):
+            cursor = database.execute(query, words)
+        yield from each_unbroken(cursor, *broken)
+    except InputError:
+        meter.check(0)  # it may have been stopped
+        raise
+
+
 def _add(database: sqlite3.Connection, topics: Topics, packed: Work | None) -> None:
-    if database.execute(TABLES).fetchone() != (2,):
+    if next(_answers(database, topics.meter, TABLES)) != (2,):
         raise InputError(topics.meter.source, "no tables of topics and messages", BROKEN[1])
     known = _known(database, topics)
-    for number, logged, raw in _rows(database, sorted({each.kind for each in known.values()})):
-        if number in known:
+    kinds = sorted({each.kind for each in known.values()})
+    places = ",".join("?" * len(kinds))
+    for number, logged, raw in _answers(database, topics.meter, ROWS.format(places), *kinds):
+        if number in known and isinstance(logged, int) and isinstance(raw, bytes):
             topics.read(known[number], logged, raw, packed)
 
 
 def _known(database: sqlite3.Connection, topics: Topics) -> Known:
     """Declare every topic, and return those whose type is known."""
-    counts, known = dict[object, int](database.execute(COUNTS)), Known()
-    for number, name, kind, form in database.execute(TOPICS):
+    counts, known = dict[object, int](_answers(database, topics.meter, COUNTS)), Known()
+    for number, name, kind, form in _answers(database, topics.meter, TOPICS):
         topics.meter.take(PART)
         topics.declare(str(name), str(kind), counts.get(number, 0))
         if is_known(str(kind)) and form == "cdr":
             decoder = ros_decoder(str(kind), True, topics.meter.source)
             known[number] = TopicReader(str(name), str(kind), decoder)
     return known
-
-
-def _rows(database: sqlite3.Connection, kinds: list[str]) -> Iterator[tuple[int, int, bytes]]:
-    """Yield topic, time (ns) and content of messages of some types."""
-    places = ",".join("?" * len(kinds))
-    for number, logged, data in database.execute(ROWS.format(places), kinds):
-        if isinstance(logged, int) and isinstance(data, bytes):
-            yield number, logged, data
