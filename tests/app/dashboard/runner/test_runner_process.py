@@ -48,6 +48,9 @@ def test_the_runner_leaves_signals_to_the_server_and_ends_by_itself(nanosat, tmp
     assert runner._process.is_alive()
     runner.close()
     assert runner._process.exitcode == 0
+    reader.join(10)
+    assert not reader.is_alive()
+    assert not runner.pipe.closed  # under who reads
 
 
 def received_until_closed(pipe):
