@@ -16,7 +16,7 @@ from tests.support.driver_fuzz_targets import TARGETS as DEVICES
 from tests.support.file_fuzz_targets import TARGETS as FILES
 from tests.support.fuzz_target import Target, folder
 from tests.support.watched_files import WATCHER
-from verification.structures import SHAKES, SHARES
+from verification.structures import SHAKES, share_of
 from verification.structures import TARGETS as STRUCTURED
 
 TRIED = 2000  # in all, the slow less often; a million in ``verification.structures``
@@ -50,8 +50,7 @@ def one_gigabyte():
 
 
 def _tried(target: Target) -> int:
-    shares = [SHARES.get(each.name, 1.0) for each in STRUCTURED]
-    return math.ceil(TRIED * SHARES.get(target.name, 1.0) / sum(shares))
+    return math.ceil(TRIED * share_of(target) / sum(map(share_of, STRUCTURED)))
 
 
 @pytest.mark.parametrize("target", STRUCTURED, ids=lambda each: each.name)

@@ -30,6 +30,7 @@ class Tried:
     inputs: dict[str, int]  # by target
     raised: tuple[str, ...]
     slowest: dict[str, float]  # s, by target
+    late: tuple[str, ...]  # what took too long
 
 
 def tried(seed: int) -> Tried:
@@ -37,13 +38,15 @@ def tried(seed: int) -> Tried:
     rng = np.random.default_rng(seed)
     share = np.array([each.share for each in TARGETS])
     inputs, raised, slowest = dict.fromkeys(names(), 0), [], dict.fromkeys(names(), 0.0)
+    late = list[str]()
     for target in picked(TARGETS, share, rng):
         content = mutated(target.valid(), rng)
         found, seconds = timed(target, content)
         raised += found
+        late += late_in(seed, target, seconds)
         slowest[target.name] = max(slowest[target.name], seconds)
         inputs[target.name] += 1
-    return Tried(inputs, tuple(raised), slowest)
+    return Tried(inputs, tuple(raised), slowest, tuple(late))
 
 
 def picked(
@@ -68,6 +71,11 @@ def timed(target: Target, content: bytes) -> tuple[list[str], float]:
         faulthandler.cancel_dump_traceback_later()
 
 
+def late_in(seed: int, target: Target, seconds: float) -> list[str]:
+    """Return a sentence on an input of a batch that took too long, which its seed makes again."""
+    return [f"{target.name}: {seconds:.1f} s, seed {seed}"] if seconds > SLOWEST else []
+
+
 def raised_by(target: Target, content: bytes) -> list[str]:
     """Return what an input raises that is not declared, as a sentence with its beginning."""
     try:
@@ -88,6 +96,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     slowest = {name: max(each.slowest[name] for each in batches) for name in names()}
     total = sum(counts.values())
     raised = [sentence for each in batches for sentence in each.raised]
+    late = [sentence for each in batches for sentence in each.late]
     rows: tuple[Row, ...] = (
         at_most(f"of {total} inputs raised what is not declared", len(raised), 0, "d"),
         at_most("slowest input, s of processor time", max(slowest.values()), SLOWEST),
@@ -99,4 +108,4 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     )
     tries = ", ".join(f"{name} {counts[name]} ({slowest[name] * 1e3:.0f})" for name in names())
     note = f"Inputs to each, and the slowest of them in ms: {tries}."
-    return Result("any_bytes", claim, rows, (note, *raised[:REPORTED]))
+    return Result("any_bytes", claim, rows, (note, *raised[:REPORTED], *late[:REPORTED]))

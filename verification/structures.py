@@ -9,12 +9,12 @@ import numpy as np
 from tests.support.document_fuzz_targets import SHAKES as OF_DOCUMENTS
 from tests.support.document_fuzz_targets import TARGETS as DOCUMENTS
 from tests.support.file_fuzz_targets import TARGETS as FILES
-from tests.support.fuzz_target import folder
+from tests.support.fuzz_target import Target, folder
 from tests.support.peak_memory import forget_peak, peak_mb
 from tests.support.structured_bytes import REGULAR
 from tests.support.structured_bytes import SHAKES as OF_FILES
 from tests.support.watched_files import WATCHER
-from verification.any_bytes import REPORTED, SHOWN, SLOWEST, picked, timed
+from verification.any_bytes import REPORTED, SLOWEST, late_in, picked, timed
 from verification.result import Result, Row, Spread, at_most, in_turn
 
 SHAKES = {**OF_FILES, **OF_DOCUMENTS}
@@ -38,7 +38,7 @@ class Tried:
 def tried(seed: int) -> Tried:
     """Try a batch, targets by their shares."""
     rng = np.random.default_rng(seed)
-    share = np.array([SHARES.get(each.name, 1.0) for each in TARGETS])
+    share = np.array([share_of(each) for each in TARGETS])
     inputs, raised, slowest = dict.fromkeys(names(), 0), list[str](), dict.fromkeys(names(), 0.0)
     late = list[str]()
     WATCHER.found.clear()
@@ -50,11 +50,15 @@ def tried(seed: int) -> Tried:
             found, seconds = timed(target, content)
         raised += found
         slowest[target.name] = max(slowest[target.name], seconds)
-        if seconds > SLOWEST:
-            late.append(f"{target.name}: {seconds:.1f} s; input {content[:SHOWN].hex()}")
+        late += late_in(seed, target, seconds)
         inputs[target.name] += 1
         peak = max(peak, peak_mb())
     return Tried(inputs, tuple(raised), tuple(WATCHER.found), slowest, tuple(late), peak)
+
+
+def share_of(target: Target) -> float:
+    """Return how often a kind of file is tried."""
+    return SHARES.get(target.name, 1.0)
 
 
 def names() -> list[str]:
