@@ -14,7 +14,17 @@ from tests.support.peak_memory import forget_peak, peak_mb
 from tests.support.structured_bytes import REGULAR
 from tests.support.structured_bytes import SHAKES as OF_FILES
 from tests.support.watched_files import WATCHER
-from verification.any_bytes import REPORTED, SLOWEST, late_in, picked, timed
+from verification.fuzz_batch import (
+    REPORTED,
+    SLOWEST,
+    Found,
+    Tried,
+    note_on,
+    take_valid,
+    timed,
+    together,
+    tried_in,
+)
 from verification.result import Result, Row, Spread, at_most, in_turn
 
 SHAKES = {**OF_FILES, **OF_DOCUMENTS}
@@ -24,36 +34,33 @@ MOST_MB = 1000.0  # that one input may take
 
 
 @dataclass(frozen=True, slots=True)
-class Tried:
-    """What became of a batch."""
+class Watched:
+    """What became of a batch, and what it did beside."""
 
-    inputs: dict[str, int]  # by target
-    raised: tuple[str, ...]
+    tried: Tried
     outside: tuple[str, ...]  # what was written elsewhere, or begun
-    slowest: dict[str, float]  # s, by target
-    late: tuple[str, ...]  # what took too long
     peak_mb: float  # of the process while it reads
 
 
-def tried(seed: int) -> Tried:
-    """Try a batch, targets by their shares."""
-    rng = np.random.default_rng(seed)
-    share = np.array([share_of(each) for each in TARGETS])
-    inputs, raised, slowest = dict.fromkeys(names(), 0), list[str](), dict.fromkeys(names(), 0.0)
-    late = list[str]()
+def tried(seed: int) -> Watched:
+    """Try a batch."""
     WATCHER.found.clear()
-    peak = 0.0
-    for target in picked(TARGETS, share, rng):
-        content = SHAKES[target.name](target.valid(), rng)[:REGULAR]
+    peaks = list[float]()
+
+    def watched(target: Target, content: bytes) -> Found:
         forget_peak()
         with WATCHER.watching(str(folder()), tempfile.gettempdir()):
-            found, seconds = timed(target, content)
-        raised += found
-        slowest[target.name] = max(slowest[target.name], seconds)
-        late += late_in(seed, target, seconds)
-        inputs[target.name] += 1
-        peak = max(peak, peak_mb())
-    return Tried(inputs, tuple(raised), tuple(WATCHER.found), slowest, tuple(late), peak)
+            found = timed(target, content)
+        peaks.append(peak_mb())
+        return found
+
+    of_batch = tried_in(seed, [(each, share_of(each)) for each in TARGETS], shaken, watched)
+    return Watched(of_batch, tuple(WATCHER.found), max(peaks))
+
+
+def shaken(target: Target, rng: np.random.Generator) -> bytes:
+    """Return a valid file of a target's kind with its parts changed."""
+    return SHAKES[target.name](target.valid(), rng)[:REGULAR]
 
 
 def share_of(target: Target) -> float:
@@ -61,27 +68,17 @@ def share_of(target: Target) -> float:
     return SHARES.get(target.name, 1.0)
 
 
-def names() -> list[str]:
-    """Return the names of all targets."""
-    return [each.name for each in TARGETS]
-
-
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Try a batch for each seed."""
-    for target in TARGETS:
-        target.take(target.valid())
+    take_valid(TARGETS)
     batches = spread(tried, seeds)
-    counts = {name: sum(each.inputs[name] for each in batches) for name in names()}
-    slowest = {name: max(each.slowest[name] for each in batches) for name in names()}
-    raised = [sentence for each in batches for sentence in each.raised]
+    found = together([each.tried for each in batches])
     outside = [sentence for each in batches for sentence in each.outside]
-    late = [sentence for each in batches for sentence in each.late]
+    total = sum(found.inputs.values())
     rows: tuple[Row, ...] = (
-        at_most(
-            f"of {sum(counts.values())} inputs raised what is not declared", len(raised), 0, "d"
-        ),
+        at_most(f"of {total} inputs raised what is not declared", len(found.raised), 0, "d"),
         at_most("files written elsewhere, programs or connections begun", len(outside), 0, "d"),
-        at_most("slowest input, s of processor time", max(slowest.values()), SLOWEST),
+        at_most("slowest input, s of processor time", max(found.slowest.values()), SLOWEST),
         at_most("largest process, MB", max(each.peak_mb for each in batches), MOST_MB),
     )
     claim = (
@@ -89,7 +86,5 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         "values, records, members or columns; some of these are changed, lost, repeated or put "
         "elsewhere, and the whole is written anew. Each is read, or refused with a remedy."
     )
-    tries = ", ".join(f"{name} {counts[name]} ({slowest[name] * 1e3:.0f})" for name in names())
-    note = f"Inputs of each, and the slowest of them in ms: {tries}."
-    wrong = *raised[:REPORTED], *outside[:REPORTED], *late[:REPORTED]
-    return Result("structures", claim, rows, (note, *wrong))
+    wrong = *found.raised[:REPORTED], *outside[:REPORTED], *found.late[:REPORTED]
+    return Result("structures", claim, rows, (note_on(found), *wrong))

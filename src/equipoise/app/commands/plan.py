@@ -1,7 +1,7 @@
 """`equipoise plan`: the most informative manoeuvre."""
 
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from equipoise.app.arguments.options import (
     NOTHING_STATED,
@@ -11,7 +11,11 @@ from equipoise.app.arguments.options import (
     Seeking,
     Whole,
 )
-from equipoise.app.console.terminal import announced
+from equipoise.app.console.terminal import announced, show_paths
+
+if TYPE_CHECKING:
+    from equipoise.model.manoeuvre import Plan
+    from equipoise.model.testbed import Testbed
 
 
 def plan(
@@ -93,9 +97,13 @@ def plan(
     done = run(request, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     if write is not None:
-        from equipoise.app.console.terminal import show_paths
-        from equipoise.io.documents.plan_file import write_plan
-
-        write_plan(done.plan, bed, write)
-        show_paths([write], json)
+        _write(done.plan, bed, write, json)
     return 0 if done.planned.keeps else 1
+
+
+def _write(plan: "Plan", bed: "Testbed", path: Path, json: bool) -> None:
+    """Write the plan file, and say so."""
+    from equipoise.io.documents.plan_file import write_plan
+
+    write_plan(plan, bed, path)
+    show_paths([path], json)
