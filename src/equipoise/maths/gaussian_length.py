@@ -26,8 +26,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 from scipy.special import ndtri
-from scipy.stats.qmc import Sobol
 
+from equipoise.maths.sobol_points import sobol_points
 from equipoise.model.arrays import Floats, Square
 
 SURE = 0.975  # one-sided, of every upper bound
@@ -56,7 +56,7 @@ def root_of(covariance: Square) -> Floats:
 @cache
 def normal_points(size: int) -> Floats:
     """Return points (n, size) spread evenly as N(0, E); always the same."""
-    return ndtri(Sobol(size, scramble=False).fast_forward(1).random(2**POINTS - 1))
+    return ndtri(sobol_points(1, 2**POINTS - 1, size))
 
 
 def lengths(x: Floats, Q: Square) -> Floats:

@@ -21,7 +21,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from scipy.stats import binom
+import numpy as np
+from scipy.special import bdtr, bdtrik
 
 from equipoise.model.criterion import VerdictOutcome, decided
 from equipoise.model.units import MS, UN_M
@@ -47,7 +48,12 @@ class Advice:
 
 def least_share(runs: int) -> float:
     """Return the least coverage of so many runs that may be chance for intervals of 95 %."""
-    return float(binom.ppf(RARE, runs, COVER)) / runs if runs else 1.0
+    if not runs:
+        return 1.0
+    covered = float(np.ceil(bdtrik(RARE, runs, COVER)))
+    if covered > 0 and bdtr(covered - 1, runs, COVER) >= RARE:  # what rounding made one more
+        covered -= 1
+    return covered / runs
 
 
 def percent(share: float) -> str:

@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from equipoise.assessment.metrics.spectrum import decimated, highest_peak, spectrum
 from equipoise.assessment.metrics.spin_lines import SEPARATE, SpinLines, is_separate, no_lines
@@ -134,7 +134,7 @@ def is_more(before: float, after: float, freedom: int) -> bool:
     if freedom < 1 or after <= 0:
         return False
     ratio = (before - after) / SWING_UNKNOWNS / (after / freedom)
-    return bool(fisher.sf(ratio, SWING_UNKNOWNS, freedom) < CHANCE)
+    return bool(fdtrc(SWING_UNKNOWNS, freedom, ratio) < CHANCE)
 
 
 def is_swing(tilts: Tilts, unknowns: Floats) -> bool:

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from equipoise.assessment.record_checks.attitude_steps import steps
 from equipoise.assessment.record_checks.local_fit import (
@@ -210,7 +210,7 @@ def _odd_rows(
     The windows are those of a ``share`` of the record.
     """
     unlikely = np.sum((fit.left_own / sd) ** 2, axis=1)
-    limit = float(chi2.isf(ALARMS * share / len(fit.rows), 3))
+    limit = float(chdtri(3, ALARMS * share / len(fit.rows)))
     suspects = np.flatnonzero(unlikely > limit)
     found: dict[int, Vector3] = {}
     taken = np.zeros(len(t), bool)

@@ -21,7 +21,7 @@ Cannot see jumps at the very ends, where one side has too few rows.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.parameters.fit_parameters import RATE, R
@@ -71,4 +71,4 @@ def disturbances(smoothed: Smoothed, coordinates: slice) -> Disturbances:
 
 def threshold(spacing: float) -> float:
     """Return the surprise (chi-square of 3) beyond which a cut is an event; ``spacing`` in s."""
-    return float(chi2.isf(spacing / FALSE_ALARM / len(KINDS), 3))
+    return float(chdtri(3, spacing / FALSE_ALARM / len(KINDS)))

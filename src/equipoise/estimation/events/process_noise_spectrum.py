@@ -17,7 +17,7 @@ Cannot see what lasts longer than an eighth of the record, nor what a constant t
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from equipoise.estimation.events.record_model import RecordModel, process_noise, refitted
 from equipoise.model.arrays import Floats
@@ -42,7 +42,7 @@ def densest(u: Floats, blocks: int = BLOCKS) -> Floats:
     found: Floats = np.ones_like(u[0])
     for n in lengths:
         ratio, count = block_ratios(u, n), len(u) // n
-        limit = float(chi2.isf(CHANCE, count)) / count
+        limit = float(chdtri(count, CHANCE)) / count
         denser: Floats = np.where(ratio > limit, ratio, 1.0)
         found = np.maximum(found, denser)
     return found

@@ -19,8 +19,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import chi2
-from scipy.stats import t as student
+from scipy.special import chdtri, stdtrit
 
 from equipoise.estimation.method_contract import Method, Options, refused
 from equipoise.estimation.motion.fused_motion import at_times, led_motion
@@ -167,7 +166,7 @@ def answered(requested: Question) -> Answer:
         whole = replace(rows, b=rows.b - rows.omitted, omitted=None)
     left = remains(whole, best - sums.bias - omitted)
     blurred = blur(requested, aid, best)
-    spread = (student.ppf(0.975, len(requested.draws)) / NORMAL_95) ** 2 * sums.covariance
+    spread = (stdtrit(len(requested.draws), 0.975) / NORMAL_95) ** 2 * sums.covariance
     course = None if linear.plan is None else passed(linear.plan, requested.posed.testbed, rows)
     shifts = Shifts(sums.bias, omitted, blurred)
     return Answer(best, spread, shifts, left, excess(left, sums.power), course)
@@ -258,6 +257,6 @@ def excess(left: Series, expected: Floats) -> float:
     for band in bands(len(power)):
         freedom = 2 * equations * (band.stop - band.start)
         ratio = float(np.sum(power[band])) / max(float(np.sum(expected[band])), 1e-300)
-        if ratio > float(chi2.isf(SURE, freedom)) / freedom:
+        if ratio > float(chdtri(freedom, SURE)) / freedom:
             found = max(found, ratio)
     return found

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.actuators.stops import travels
@@ -139,7 +139,7 @@ def doubts(rests: list[Rest], misfit: float) -> tuple[Reason, ...]:
     swing = max(rest.swing for rest in rests)
     if swing > SWING:
         return (Reason(Why.SWINGS_AT_REST, (), {"swing": swing}),)
-    if misfit > float(chi2.ppf(SURE, 2 * len(rests) - 3)):
+    if misfit > float(chdtri(2 * len(rests) - 3, 1.0 - SURE)):
         return (Reason(Why.RESTS_DISAGREE),)
     return ()
 
