@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import Bounds, LinearConstraint, milp
+import scipy
 
 from equipoise.maths.linalg import PAIRS
 from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3, Vector6
@@ -125,13 +125,13 @@ def displacements_for(
     )
     whole = np.array([int(m.resolution > 0) for m in masses], dtype=np.int64)
     integer = np.concatenate([whole, whole, np.zeros(7, dtype=np.int64)])
-    answer = milp(
+    answer = scipy.optimize.milp(
         cost,
         integrality=integer,
-        bounds=Bounds(np.zeros(2 * k + 7), upper),
+        bounds=scipy.optimize.Bounds(np.zeros(2 * k + 7), upper),
         constraints=[
-            LinearConstraint(balance, shift * ERRORS, shift * ERRORS),
-            LinearConstraint(clock, -np.inf, 0.0),
+            scipy.optimize.LinearConstraint(balance, shift * ERRORS, shift * ERRORS),
+            scipy.optimize.LinearConstraint(clock, -np.inf, 0.0),
         ],
     )
     assert answer.x is not None  # standing still is always allowed

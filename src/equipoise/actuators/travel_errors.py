@@ -37,7 +37,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
+import scipy
 
 from equipoise.actuators.lags import slowness
 from equipoise.actuators.travel_times import FASTER, TimedTravel, timed
@@ -73,7 +73,7 @@ def open_times(track: Samples, i: int, mass: SlidingMass, least: float) -> Itera
         times = (_by_degrees if by_degrees else _of_ends)(track, i, f"{mass.name}_{k}", travel)
         yield from (each for each in times if mass.mass * travel.path * each.sd > least)
         smooth = _smooth(track, i, f"{mass.name}_{k}", travel, mass.speed)
-        area = cumulative_trapezoid(smooth.effect, smooth.corners)
+        area = scipy.integrate.cumulative_trapezoid(smooth.effect, smooth.corners)
         if mass.mass * smooth.sd * float(np.abs(area).max()) > least:
             yield smooth
 

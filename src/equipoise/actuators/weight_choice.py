@@ -22,8 +22,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import linprog
-from scipy.spatial import KDTree
+import scipy
 
 from equipoise.actuators.placed_weights import load_of, refusal
 from equipoise.model.arrays import Floats, Ints, Vector3
@@ -104,7 +103,9 @@ def bulk_of(testbed: Testbed, wanted: Wanted) -> Ints:
     within = np.hstack([limits, -limits, np.zeros((len(limits), 6))])
     spare = np.array([weight.count for weight in weights]) - now.sum(axis=0)
     limit = [(0, None)] * n + [(0, float(c)) for c in now.ravel()] + [(0, None)] * 6
-    answer = linprog(cost, within, np.append(room, spare), balance, goal, limit, "highs")
+    answer = scipy.optimize.linprog(
+        cost, within, np.append(room, spare), balance, goal, limit, "highs"
+    )
     assert answer.x is not None  # to leave everything where it is, is always allowed
     change = answer.x[:n] - answer.x[n : 2 * n]
     whole = np.trunc(change + ROUNDING * np.sign(change))
@@ -154,7 +155,7 @@ def nearest(lever: Floats, rest: Vector3) -> Iterator[list[int]]:
     for steps, reached in ((one, lever), (two, sums)):
         yield from best(steps, np.linalg.norm(reached - rest, axis=1))
     for others, reached in ((one, lever), (two, sums)):
-        distances, which = KDTree(reached).query(rest - sums)
+        distances, which = scipy.spatial.KDTree(reached).query(rest - sums)
         yield from best(np.hstack([two, others[which]]), np.asarray(distances))
 
 

@@ -24,8 +24,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import ndtri
+import scipy
 
 from equipoise.maths.sobol_points import sobol_points
 from equipoise.model.arrays import Floats, Square
@@ -56,7 +55,7 @@ def root_of(covariance: Square) -> Floats:
 @cache
 def normal_points(size: int) -> Floats:
     """Return points (n, size) spread evenly as N(0, E); always the same."""
-    return ndtri(sobol_points(1, 2**POINTS - 1, size))
+    return scipy.special.ndtri(sobol_points(1, 2**POINTS - 1, size))
 
 
 def lengths(x: Floats, Q: Square) -> Floats:
@@ -91,8 +90,10 @@ def sure_distance(z: Floats, g: Floats, curvature: Floats) -> float:
     """
     found = float(np.quantile(distances(z, g, curvature), SURE))
     size = float(np.linalg.norm(g))
-    along = float(np.quantile(z @ (g / size), SURE)) if size > 0 else float(ndtri(SURE))
-    return found + float(ndtri(SURE)) - along
+    along = (
+        float(np.quantile(z @ (g / size), SURE)) if size > 0 else float(scipy.special.ndtri(SURE))
+    )
+    return found + float(scipy.special.ndtri(SURE)) - along
 
 
 def toward_zero(g: Floats, curvature: Floats, radius: float) -> Floats:
@@ -102,7 +103,7 @@ def toward_zero(g: Floats, curvature: Floats, radius: float) -> Floats:
         return float(np.linalg.norm(g / (curvature + damping))) - radius
 
     most = float(np.linalg.norm(g)) / radius
-    damping = brentq(excess, 0.0, most) if excess(0.0) > 0 else 0.0
+    damping = scipy.optimize.brentq(excess, 0.0, most) if excess(0.0) > 0 else 0.0
     return -g / (curvature + float(damping))
 
 
@@ -117,7 +118,7 @@ def shortest(mean: Floats, C: Floats, Q: Square) -> float:
     pull = C.T @ (Q @ mean) / size
     V = axes * np.where(axes.T @ pull < 0, -1.0, 1.0)  # which way they point is chance
     g, z = V.T @ pull, normal_points(int(observed.sum()))[:FEW]
-    radius, before = float(ndtri(SURE)), np.inf
+    radius, before = float(scipy.special.ndtri(SURE)), np.inf
     for turn in range(TURNS):
         if abs(radius - before) < CLOSE:
             break

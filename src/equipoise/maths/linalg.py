@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy
 
 from equipoise.model.arrays import Bools, Floats, Matrix3, Series, Square, Vector3, Vector6
 
@@ -50,7 +50,7 @@ def eigen_symmetric(matrix: Square) -> tuple[Floats, Square]:
     By QR steps: from 26 rows on LAPACK's divide and conquer, which ``np.linalg.eigh`` takes, wakes
     every core for a few hundred multiplications, and waits a hundred times as long for a busy one.
     """
-    values, vectors = eigh(matrix, driver="ev", check_finite=False)
+    values, vectors = scipy.linalg.eigh(matrix, driver="ev", check_finite=False)
     return values, vectors
 
 

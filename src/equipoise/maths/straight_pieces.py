@@ -12,7 +12,7 @@ because chords lie on one side of a bend, and what is summed over many bends mus
 from itertools import pairwise
 
 import numpy as np
-from scipy.linalg import solveh_banded
+import scipy
 
 from equipoise.model.arrays import Bools, Floats, Ints, Series, Series1
 
@@ -53,7 +53,7 @@ def nearest_values(t: Series1, v: Series, at: Ints) -> Floats:
     band[0, 1:] = np.bincount(k, s * (1 - s), n - 1)
     band[1] = np.bincount(k, (1 - s) ** 2, n) + np.bincount(k + 1, s**2, n)
     right = [np.bincount(k, (1 - s) * x, n) + np.bincount(k + 1, s * x, n) for x in v.T]
-    return solveh_banded(band, np.column_stack(right))
+    return scipy.linalg.solveh_banded(band, np.column_stack(right))
 
 
 def straight_pieces(

@@ -13,8 +13,8 @@ density (Grenander and Szegoe 1958, section 5.2): no parameter errs by more than
 """
 
 import numpy as np
-from scipy.special import chdtrc
 
+from equipoise.maths.chi_square import chi_square_chance
 from equipoise.model.arrays import Floats, Series
 
 LAGS = 10  # chosen: a few rows more than neighbours that share a cause
@@ -36,7 +36,7 @@ def portmanteau(residual: Series) -> float:
     ]
     left = n - np.arange(1, LAGS + 1)
     Q: Floats = n * (n + 2) * np.sum(np.array(rho) ** 2 / left[:, None], axis=0)
-    return float(chdtrc(LAGS * Q.size, float(np.sum(Q))))
+    return chi_square_chance(LAGS * Q.size, float(np.sum(Q)))
 
 
 def spectral_peak(residual: Series) -> float:

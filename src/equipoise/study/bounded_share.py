@@ -6,7 +6,7 @@
 The interval is never too narrow: for no true share is ``high`` below it more often than in 2.5 %.
 """
 
-from scipy.special import betaincinv
+import scipy
 
 from equipoise.maths.gaussian_length import SURE
 from equipoise.model.criterion import Interval
@@ -14,6 +14,10 @@ from equipoise.model.criterion import Interval
 
 def bounded_share(having: int, runs: int) -> Interval:
     """Return the 95 % bounds of the share."""
-    low = float(betaincinv(having, runs - having + 1, 1 - SURE)) if having > 0 else 0.0
-    high = float(betaincinv(having + 1, runs - having, SURE)) if having < runs else 1.0
+    low = (
+        float(scipy.special.betaincinv(having, runs - having + 1, 1 - SURE)) if having > 0 else 0.0
+    )
+    high = (
+        float(scipy.special.betaincinv(having + 1, runs - having, SURE)) if having < runs else 1.0
+    )
     return Interval(low, high)

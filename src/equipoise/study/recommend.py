@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.special import bdtr, bdtrik
+import scipy
 
 from equipoise.model.criterion import VerdictOutcome, decided
 from equipoise.model.units import MS, UN_M
@@ -50,8 +50,10 @@ def least_share(runs: int) -> float:
     """Return the least coverage of so many runs that may be chance for intervals of 95 %."""
     if not runs:
         return 1.0
-    covered = float(np.ceil(bdtrik(RARE, runs, COVER)))
-    if covered > 0 and bdtr(covered - 1, runs, COVER) >= RARE:  # what rounding made one more
+    covered = float(np.ceil(scipy.special.bdtrik(RARE, runs, COVER)))
+    if (
+        covered > 0 and scipy.special.bdtr(covered - 1, runs, COVER) >= RARE
+    ):  # what rounding made one more
         covered -= 1
     return covered / runs
 

@@ -26,8 +26,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
-from scipy.special import fdtrc
+import scipy
 
 from equipoise.assessment.metrics.spectrum import decimated, highest_peak, spectrum
 from equipoise.assessment.metrics.spin_lines import SEPARATE, SpinLines, is_separate, no_lines
@@ -126,7 +125,7 @@ def settled(tilts: Tilts, unknowns: Floats) -> Floats:
         return remains(tilts, x).ravel()
 
     scale = np.full(len(unknowns), 1 / tilts.duration)
-    return least_squares(left, unknowns, x_scale=scale, method="lm").x
+    return scipy.optimize.least_squares(left, unknowns, x_scale=scale, method="lm").x
 
 
 def is_more(before: float, after: float, freedom: int) -> bool:
@@ -134,7 +133,7 @@ def is_more(before: float, after: float, freedom: int) -> bool:
     if freedom < 1 or after <= 0:
         return False
     ratio = (before - after) / SWING_UNKNOWNS / (after / freedom)
-    return bool(fdtrc(SWING_UNKNOWNS, freedom, ratio) < CHANCE)
+    return bool(scipy.special.fdtrc(SWING_UNKNOWNS, freedom, ratio) < CHANCE)
 
 
 def is_swing(tilts: Tilts, unknowns: Floats) -> bool:

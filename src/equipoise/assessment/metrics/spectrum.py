@@ -12,7 +12,7 @@ Cannot distinguish a swing from anything else that repeats; that is ``swing_mode
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import lombscargle
+import scipy
 
 from equipoise.model.arrays import Floats, Series, Series1
 
@@ -60,7 +60,9 @@ def spectrum(t: Series1, s: Series) -> Spectrum:
     # Of less than a period sine and constant are nearly one, and their amplitudes run away.
     frequency = np.arange(float(FINER), int(highest * length * FINER) + 1) / (length * FINER)
     by_least_squares = [
-        lombscargle(t, column, 2 * np.pi * frequency, floating_mean=True, normalize="amplitude")
+        scipy.signal.lombscargle(
+            t, column, 2 * np.pi * frequency, floating_mean=True, normalize="amplitude"
+        )
         for column in s.T
     ]
     return Spectrum(frequency, np.abs(np.column_stack(by_least_squares)), 1 / length)

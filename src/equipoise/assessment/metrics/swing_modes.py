@@ -20,7 +20,7 @@ Holds for small tilts. A swing of amplitude a is slower by a^2 / 16 (``period``)
 """
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.maths.linalg import inverse_spd, skew
@@ -87,4 +87,4 @@ def moment_for(
     least = 1e-9 * most
     if off(least) > 0 or off(most) < 0:
         return float("nan")
-    return float(brentq(off, least, most, xtol=1e-12 * most))
+    return float(scipy.optimize.brentq(off, least, most, xtol=1e-12 * most))

@@ -20,7 +20,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-from scipy.special import chdtri
 
 from equipoise.assessment.record_checks.attitude_steps import steps
 from equipoise.assessment.record_checks.local_fit import (
@@ -42,6 +41,7 @@ from equipoise.assessment.record_checks.window_misfit import (
     out,
     touch_misfit,
 )
+from equipoise.maths.chi_square import chi_square_limit
 from equipoise.model.arrays import Floats, Ints, Series1, Series3, Vector3
 from equipoise.model.recording import Samples
 
@@ -210,7 +210,7 @@ def _odd_rows(
     The windows are those of a ``share`` of the record.
     """
     unlikely = np.sum((fit.left_own / sd) ** 2, axis=1)
-    limit = float(chdtri(3, ALARMS * share / len(fit.rows)))
+    limit = chi_square_limit(3, ALARMS * share / len(fit.rows))
     suspects = np.flatnonzero(unlikely > limit)
     found: dict[int, Vector3] = {}
     taken = np.zeros(len(t), bool)

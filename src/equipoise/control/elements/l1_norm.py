@@ -17,7 +17,7 @@ slowest has decayed. A must be stable. By hand, A = -k, b = 1: y changes sign on
 """
 
 import numpy as np
-from scipy.linalg import expm
+import scipy
 
 from equipoise.model.arrays import Floats, Square
 
@@ -33,7 +33,7 @@ def l1_norm(matrix: Square, b: Floats, bandwidth: float) -> float:
     modes = np.linalg.eigvals(whole)
     step = 1 / (STEPS * float(np.abs(modes).max()))
     count = int(DECAYED / float(-modes.real.max()) / step)
-    forward = np.array(expm(whole * step), dtype=np.float64)
+    forward = np.array(scipy.linalg.expm(whole * step), dtype=np.float64)
     z = np.concatenate([b, np.zeros(n)])
     sizes = np.zeros((count, n))
     for row in sizes:

@@ -29,7 +29,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 BAND = 0.1  # chosen: twice the noise of a fair gyro, and 6 degrees of lag
 CYCLES_IN, CYCLES_USED = 2, 3  # chosen: the cycle has settled to a per cent after two
@@ -70,7 +70,7 @@ def ultimate(loop: Loop) -> Ultimate:
 
     if margin(loop.frequency) <= 0:
         return Ultimate(0.0, np.inf)
-    w = float(brentq(margin, loop.frequency, np.pi / 2 / lag))  # pyright: ignore
+    w = float(scipy.optimize.brentq(margin, loop.frequency, np.pi / 2 / lag))  # pyright: ignore
     smaller = float(np.sinc(w * loop.relay / loop.slew / np.pi))
     gain = (w**2 - loop.frequency**2) / (loop.gain * np.hypot(1, w * loop.lead) * smaller)
     return Ultimate(float(gain), 2 * np.pi / w)

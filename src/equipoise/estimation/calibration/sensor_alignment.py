@@ -11,8 +11,7 @@ rails, which are found in the same axes, do.
 """
 
 import numpy as np
-from scipy.linalg import polar
-from scipy.spatial.transform import Rotation
+import scipy
 
 from equipoise.model import sensor_terms
 from equipoise.model.arrays import Floats
@@ -32,5 +31,5 @@ def matrix_of(coefficients: Floats) -> Floats:
 
 def alignment_of(coefficients: Floats) -> Floats:
     """Return turn (3) rad and scale errors (3) of the nine coefficients; det A must be positive."""
-    Q, S = polar(matrix_of(coefficients), side="left")
-    return np.append(-Rotation.from_matrix(Q).as_rotvec(), np.diag(S) - 1.0)
+    Q, S = scipy.linalg.polar(matrix_of(coefficients), side="left")
+    return np.append(-scipy.spatial.transform.Rotation.from_matrix(Q).as_rotvec(), np.diag(S) - 1.0)

@@ -21,10 +21,10 @@ Cannot see jumps at the very ends, where one side has too few rows.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import chdtri
 
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.parameters.fit_parameters import RATE, R
+from equipoise.maths.chi_square import chi_square_limit
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.estimate import COM
 from equipoise.model.estimate import RATE as RATES
@@ -71,4 +71,4 @@ def disturbances(smoothed: Smoothed, coordinates: slice) -> Disturbances:
 
 def threshold(spacing: float) -> float:
     """Return the surprise (chi-square of 3) beyond which a cut is an event; ``spacing`` in s."""
-    return float(chdtri(3, spacing / FALSE_ALARM / len(KINDS)))
+    return chi_square_limit(3, spacing / FALSE_ALARM / len(KINDS))

@@ -17,9 +17,9 @@ Cannot see what lasts longer than an eighth of the record, nor what a constant t
 from dataclasses import replace
 
 import numpy as np
-from scipy.special import chdtri
 
 from equipoise.estimation.events.record_model import RecordModel, process_noise, refitted
+from equipoise.maths.chi_square import chi_square_limit
 from equipoise.model.arrays import Floats
 
 BLOCKS = 8  # chosen: with fewer a mean square says nothing
@@ -42,7 +42,7 @@ def densest(u: Floats, blocks: int = BLOCKS) -> Floats:
     found: Floats = np.ones_like(u[0])
     for n in lengths:
         ratio, count = block_ratios(u, n), len(u) // n
-        limit = float(chdtri(count, CHANCE)) / count
+        limit = chi_square_limit(count, CHANCE) / count
         denser: Floats = np.where(ratio > limit, ratio, 1.0)
         found = np.maximum(found, denser)
     return found

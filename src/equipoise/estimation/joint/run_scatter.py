@@ -23,9 +23,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtrc
 
 from equipoise.estimation.parameters.observability import OBSERVABLE
+from equipoise.maths.chi_square import chi_square_chance
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
@@ -74,7 +74,7 @@ def deviation(source: str, z: Floats, W: Square) -> Deviation:
 
 def probability_of(chi_square: float, freedom: float) -> float:
     """Return the probability of a chi-square as large; 1 where there is nothing to compare."""
-    return float(chdtrc(freedom, chi_square)) if freedom >= FEWEST else 1.0
+    return chi_square_chance(freedom, chi_square) if freedom >= FEWEST else 1.0
 
 
 def scatter_of(

@@ -14,7 +14,7 @@ Cannot tell a lamp's warmth from a drift where the record ends long before tau, 
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from equipoise.dynamics.lamp_warmth import by_lamp
 from equipoise.estimation.events.event_time_covariance import widened
@@ -66,7 +66,7 @@ def responding(model: RecordModel) -> RecordModel:
     """Return the model with the likeliest time constant; the same where no lamp counts."""
     if not follows(model):
         return model
-    found = minimize_scalar(
+    found = scipy.optimize.minimize_scalar(
         lambda shift: misfit_at(model, shift),
         bounds=(-FARTHEST, FARTHEST),
         method="bounded",

@@ -14,7 +14,7 @@ accelerometer feels of turning, for noise.
 """
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+import scipy
 
 from equipoise.maths.attitude import exponential, from_matrix, multiply, normalise, to_matrix
 from equipoise.maths.compiled import kernel
@@ -56,7 +56,9 @@ def first_attitude(rows: Rows, start: float) -> Quaternion:
              for each, channel in rows]  # fmt: skip
     measured = np.array([_unit(np.median(values, axis=0)) for _, values in early])  # some are wild
     true = np.array([_unit(each.vector_N) for each, _ in early])
-    return from_matrix(Rotation.align_vectors(true, measured)[0].as_matrix())
+    return from_matrix(
+        scipy.spatial.transform.Rotation.align_vectors(true, measured)[0].as_matrix()
+    )
 
 
 def _unit(vector: Vector3) -> Vector3:

@@ -18,7 +18,7 @@ err alike and independently; those of running integrals do not.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solve_triangular
+import scipy
 
 from equipoise.model.arrays import Floats, Series, Series1
 from equipoise.model.errors import InputError
@@ -41,8 +41,8 @@ def error_indices(H: Series, y: Series1) -> ErrorIndices:
     if np.linalg.matrix_rank(H) < unknowns or not np.any(y):
         raise InputError("H and y", "dependent columns, or y of zeros", "a problem with one answer")
     Q, upper = np.linalg.qr(H)
-    x: Floats = solve_triangular(upper, Q.T @ y)
-    inverse: Floats = solve_triangular(upper, np.eye(unknowns))
+    x: Floats = scipy.linalg.solve_triangular(upper, Q.T @ y)
+    inverse: Floats = scipy.linalg.solve_triangular(upper, np.eye(unknowns))
     spread: Floats = np.linalg.norm(inverse, axis=1)  # sqrt([(H^T H)^-1]_ii), as H^T H = U^T U
     left = float(np.linalg.norm(y - H @ x))
     with np.errstate(divide="ignore", invalid="ignore"):

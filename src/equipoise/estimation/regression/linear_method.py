@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import chdtri, stdtrit
+import scipy
 
 from equipoise.estimation.method_contract import Method, Options, refused
 from equipoise.estimation.motion.fused_motion import at_times, led_motion
@@ -34,6 +34,7 @@ from equipoise.estimation.regression.linear_estimate import Answer, Shifts, conc
 from equipoise.estimation.regression.monte_carlo_replicates import PAIRS, Drawn, pairs
 from equipoise.estimation.regression.solvers.least_squares import Aid, Solver, least_squares
 from equipoise.estimation.regression.solvers.recursion import Plan, passed, recursive
+from equipoise.maths.chi_square import chi_square_limit
 from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.estimate import INERTIA, NORMAL_95, Estimate
@@ -166,7 +167,7 @@ def answered(requested: Question) -> Answer:
         whole = replace(rows, b=rows.b - rows.omitted, omitted=None)
     left = remains(whole, best - sums.bias - omitted)
     blurred = blur(requested, aid, best)
-    spread = (stdtrit(len(requested.draws), 0.975) / NORMAL_95) ** 2 * sums.covariance
+    spread = (scipy.special.stdtrit(len(requested.draws), 0.975) / NORMAL_95) ** 2 * sums.covariance
     course = None if linear.plan is None else passed(linear.plan, requested.posed.testbed, rows)
     shifts = Shifts(sums.bias, omitted, blurred)
     return Answer(best, spread, shifts, left, excess(left, sums.power), course)
@@ -257,6 +258,6 @@ def excess(left: Series, expected: Floats) -> float:
     for band in bands(len(power)):
         freedom = 2 * equations * (band.stop - band.start)
         ratio = float(np.sum(power[band])) / max(float(np.sum(expected[band])), 1e-300)
-        if ratio > float(chdtri(freedom, SURE)) / freedom:
+        if ratio > chi_square_limit(freedom, SURE) / freedom:
             found = max(found, ratio)
     return found

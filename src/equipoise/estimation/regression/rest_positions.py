@@ -20,14 +20,14 @@ is longer than the longest arm |r + dr_i|, r is not reported.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
-from scipy.special import chdtri
+import scipy
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.actuators.stops import travels
 from equipoise.dynamics.timeline import straight_lines
 from equipoise.estimation.method_contract import Options, origin_of
 from equipoise.maths.attitude import to_matrix
+from equipoise.maths.chi_square import chi_square_limit
 from equipoise.maths.linalg import inverse_spd
 from equipoise.maths.long_run import long_run_covariance, memory
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
@@ -129,7 +129,7 @@ def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
         return np.concatenate([along(com + s.shift)[1] / s.sd for s in rests])
 
     start = np.linalg.solve(rest_information(rests), right)
-    found = least_squares(left, start, slope, method="lm", x_scale=SIZE)
+    found = scipy.optimize.least_squares(left, start, slope, method="lm", x_scale=SIZE)
     com = np.asarray(found.x, dtype=np.float64)
     return com, slope(com).T @ slope(com), float(np.sum(left(com) ** 2))
 
@@ -139,7 +139,7 @@ def doubts(rests: list[Rest], misfit: float) -> tuple[Reason, ...]:
     swing = max(rest.swing for rest in rests)
     if swing > SWING:
         return (Reason(Why.SWINGS_AT_REST, (), {"swing": swing}),)
-    if misfit > float(chdtri(2 * len(rests) - 3, 1.0 - SURE)):
+    if misfit > chi_square_limit(2 * len(rests) - 3, 1.0 - SURE):
         return (Reason(Why.RESTS_DISAGREE),)
     return ()
 

@@ -33,7 +33,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.special import chdtri
 
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics import sensitivities
@@ -43,6 +42,7 @@ from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.estimation.tracker.measurements import rows_of
 from equipoise.estimation.tracker.predict_correct import BODY, COM, SIZE
 from equipoise.estimation.tracker.relinearisation import Memory, follow
+from equipoise.maths.chi_square import chi_square_limit
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
     Floats,
@@ -190,7 +190,7 @@ def contact_alarm(testbed: Testbed, recording: Recording) -> float:
     rows = sum(
         sensor.rate for observed, sensor in sensors if observed is not None and sensor is not None
     )
-    return float(chdtri(3, 1 / (max(rows, 1.0) * QUIET * 2)))
+    return chi_square_limit(3, 1 / (max(rows, 1.0) * QUIET * 2))
 
 
 def model_of(recording: Recording, testbed: Testbed, params: Params, state: State) -> Model:

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any, cast
 
-from scipy.io import savemat
+import scipy
 
 from equipoise.io.columns.table import Numbers, Table, finite
 from equipoise.io.files.broken_bytes import unreadable
@@ -64,7 +64,7 @@ def _variables(content: Content, source: str) -> dict[str, Array]:
 def mat_bytes(columns: Mapping[str, Series1]) -> bytes:
     """Return columns as a MAT file's bytes (version 5, which MATLAB and Octave read)."""
     stream = io.BytesIO()
-    savemat(cast(Any, stream), dict(columns), oned_as="column")
+    scipy.io.savemat(cast(Any, stream), dict(columns), oned_as="column")
     return stream.getvalue()
 
 

@@ -27,8 +27,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import ndtri
-from scipy.stats import qmc
+import scipy
 
 from equipoise.model.arrays import Bools, Matrix3, Series, Series3
 from equipoise.planning.sizing.case import Case
@@ -159,8 +158,8 @@ def target_line(case: Case) -> Line:
 
 def even_normals(power: int, columns: int) -> Series:
     """Return 2^power rows of standard normal numbers in so many independent columns."""
-    points = qmc.Sobol(columns, scramble=True, seed=0).random_base2(power)
-    return ndtri(np.clip(points, EDGE, 1 - EDGE))
+    points = scipy.stats.qmc.Sobol(columns, scramble=True, seed=0).random_base2(power)
+    return scipy.special.ndtri(np.clip(points, EDGE, 1 - EDGE))
 
 
 def stated_offsets(case: Case, normals: Series) -> Series3:

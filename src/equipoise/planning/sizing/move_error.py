@@ -30,7 +30,7 @@ Lag, sag and mass errors are not modelled: they show in the next measurement.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import null_space
+import scipy
 
 from equipoise.actuators.mass_allocation import allocate, rails_of
 from equipoise.actuators.sliding_masses import shift_by_travel
@@ -61,7 +61,9 @@ class Left(NamedTuple):
 def at_home(testbed: Testbed, error: Series3, normals: Series, rail_lean: float) -> Standing:
     """Return platforms whose masses stand at home; ``normals`` (n, 2 k) draw their rails' lean."""
     n, k = len(error), len(testbed.masses)
-    across = [null_space(mass.axis[None]).T * mass.mass for mass in testbed.masses]  # (2, 3) each
+    across = [
+        scipy.linalg.null_space(mass.axis[None]).T * mass.mass for mass in testbed.masses
+    ]  # (2, 3) each
     ways = rail_lean / testbed.body.mass * np.array(across)
     lean = np.einsum("nkj,kjc->nkc", normals.reshape(n, k, 2), ways)
     still = np.zeros((n, k))

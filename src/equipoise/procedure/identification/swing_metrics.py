@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from scipy.signal import savgol_coeffs
+import scipy
 
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
 from equipoise.assessment.metrics.period import swings
@@ -187,7 +187,7 @@ def window_for(found: tuple[Hanging, ...], duration: float, posed: Posed) -> flo
 def gain(seconds: float, period: float, frequency: float) -> float:
     """Return the share of a sine's slope that a cubic through a window gives."""
     rows = max(round(seconds / period) // 2 * 2 + 1, 2 * DEGREE - 1)
-    weights = savgol_coeffs(rows, DEGREE, deriv=1, delta=period, use="dot")
+    weights = scipy.signal.savgol_coeffs(rows, DEGREE, deriv=1, delta=period, use="dot")
     at = period * (np.arange(rows) - rows // 2)
     omega = 2 * np.pi * frequency
     return float(weights @ np.sin(omega * at)) / omega

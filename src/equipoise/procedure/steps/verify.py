@@ -7,7 +7,7 @@ covariance (``procedure.steps.gaussian_box``), by the rule of ``model.criterion`
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.special import ndtr
+import scipy
 
 from equipoise.dynamics.rigid_body import KNOWN_WARMTH
 from equipoise.estimation.search_budget import UNLIMITED, Budget
@@ -40,7 +40,7 @@ class Aim:
 def probability_within(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Vector3:
     """Return for each axis the probability that the truth is within the tolerance of the target."""
     low, high = target - tolerance, target + tolerance
-    return np.asarray(ndtr((high - com) / sd) - ndtr((low - com) / sd))
+    return np.asarray(scipy.special.ndtr((high - com) / sd) - scipy.special.ndtr((low - com) / sd))
 
 
 def is_within(knowledge: Knowledge, aim: Aim, sure: float) -> bool:

@@ -18,7 +18,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.signal import savgol_coeffs
+import scipy
 
 from equipoise.estimation.regression.formulations.momentum import body_axes
 from equipoise.estimation.regression.formulations.rows import Formulation, Posed, Rows
@@ -60,7 +60,9 @@ def even_savitzky_golay(values: Series, period: float) -> tuple[Series, int, flo
 
 def slope_of_cubic(values: Series, period: float, n: int) -> Series:
     """Return the slope of a cubic through n rows, in their middle."""
-    return filtered(values, savgol_coeffs(n, min(DEGREE, n - 1), deriv=1, delta=period, use="dot"))
+    return filtered(
+        values, scipy.signal.savgol_coeffs(n, min(DEGREE, n - 1), deriv=1, delta=period, use="dot")
+    )
 
 
 def filtered(values: Series, weights: Floats) -> Series:

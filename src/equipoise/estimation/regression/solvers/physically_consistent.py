@@ -10,7 +10,7 @@ trace, so that the search has an end and rounding leaves the answer possible.
 """
 
 import numpy as np
-from scipy.optimize import least_squares as minimise
+import scipy
 
 from equipoise.estimation.regression.formulations.rows import Rows, centred, guess_of
 from equipoise.estimation.regression.solvers.least_squares import Aid, normal_of, solved
@@ -70,7 +70,7 @@ def nearest(
     if np.trace(inertia_C) <= 0:
         inertia_C = unpack_symmetric(guess[six])
     start[six] = pseudo_inertia.from_inertia(inertia_C)
-    found = minimise(
+    found = scipy.optimize.least_squares(
         lambda y: root.T @ (body(y) - free / scale), start, slope, method="lm", xtol=1e-12
     )
     return body(np.asarray(found.x, dtype=np.float64)) * scale
