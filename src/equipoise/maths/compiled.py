@@ -24,17 +24,20 @@ from llvmlite import ir
 from numba.core import boxing, cgutils, pythonapi, types
 from numba.np import numpy_support
 
+from equipoise.maths.inlined import Inlined
 from equipoise.maths.kernel_cache import install
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 FAST = {"contract", "reassoc", "nsz", "arcp"}
-OPTIONS: dict[str, Any] = {
-    "cache": True,
-    "nogil": True,  # runs without the interpreter's lock
-    "fastmath": FAST,
-    "error_model": "numpy",
+CODE: dict[str, Any] = {"nogil": True, "fastmath": FAST, "error_model": "numpy"}
+OPTIONS: dict[str, Any] = {**CODE, "cache": True}
+MERGED: dict[str, Any] = {
+    **CODE,
+    "forceinline": True,
+    "_nrt": False,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
 }
-MERGED: dict[str, Any] = {**OPTIONS, "forceinline": True, "_nrt": False}
 Boxer = Callable[[Any, Any, Any], Any]  # of a type, a native value, a context: a Python object
 ADAPTER = "NRT_adapt_ndarray_to_python_acqref"  # numba/core/runtime/_nrt_python.c
 RETURNING_IN_C: set[str] = set()  # modules with kernels
@@ -44,7 +47,8 @@ usual: Any = boxing
 
 def kernel(function: Function) -> Function:
     """Compile a function of arrays and numbers; it runs without the interpreter's lock."""
-    return _compiled(function, OPTIONS)
+    RETURNING_IN_C.add(function.__module__)
+    return cast(Function, numba.njit(**OPTIONS)(function))
 
 
 def part(function: Function) -> Function:
@@ -54,12 +58,8 @@ def part(function: Function) -> Function:
     arrays and keeps no count of who uses which: counting, two atomic operations for each view of
     an array, took half the time of a fit.
     """
-    return _compiled(function, MERGED)
-
-
-def _compiled(function: Function, options: dict[str, Any]) -> Function:
     RETURNING_IN_C.add(function.__module__)
-    return cast(Function, numba.njit(**options)(function))
+    return cast(Function, Inlined(function, MERGED, OPTIONS))
 
 
 def _constant(context: Any, what: object) -> Any:

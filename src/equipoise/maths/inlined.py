@@ -1,0 +1,65 @@
+"""Functions that exist only within the kernels that call them: their code is made once, in each.
+
+The compiler makes a function that others call ready to run by itself: it optimises it, turns it
+into machine code, and wraps it for Python. For a function that is always inlined, whoever calls it
+does the same again, and whoever calls that. Of the time that compiling took, half went there.
+
+Here such a function stops at the code before optimisation (LLVM IR), which kernels link. Whoever
+calls it from Python gets a kernel of it alone, made when it is first called.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+from numba.core import compiler, registry
+from numba.core.codegen import JITCodeLibrary
+
+
+class LinkedLibrary(JITCodeLibrary):
+    """Code that other libraries link, and nobody runs."""
+
+    def finalize(self) -> None:
+        """Link what this code calls; optimise nothing."""
+        self._raise_if_finalized()
+        for library in dict.fromkeys(self._linking_libraries):
+            self._reload_init.update(library._reload_init)
+            self._final_module.link_in(library._get_module_for_linking(), preserve=True)
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+
+class InlinedCompiler(compiler.Compiler):
+    """The usual steps, without those that make code ready to run."""
+
+    def define_pipelines(self) -> list[Any]:
+        """Return the steps."""
+        state: Any = self.state
+        state.flags.no_compile = True
+        state.library = LinkedLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.library.enable_object_caching()
+        return super().define_pipelines()
+
+
+class Inlined(registry.CPUDispatcher):
+    """A function that kernels inline, and that Python may call."""
+
+    def __init__(self, function: Callable[..., Any], options: dict[str, Any], usual: Any) -> None:
+        super().__init__(
+            py_func=function,
+            targetoptions={"nopython": True, "boundscheck": None, **options},
+            pipeline_class=InlinedCompiler,
+        )
+        self._usual, self._kernel = usual, None
+
+    def add_overload(self, cres: Any) -> None:
+        """Know a compiled function by a name of its own: it has no address that would be one."""
+        known = cres._replace(entry_point=[].append)
+        self.targetctx.insert_user_function(known.entry_point, known.fndesc, [known.library])
+        super().add_overload(known)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the function by itself."""
+        if self._kernel is None:
+            self._kernel = numba.njit(**self._usual)(self.py_func)
+        return self._kernel(*arguments)
