@@ -11,7 +11,7 @@ from pathlib import Path
 
 from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.io.testbed.presets import read_preset
-from equipoise.maths.kernel_cache import PACKAGE, kernels_folder, stamp
+from equipoise.maths.kernels.kernel_cache import PACKAGE, kernels_folder, stamp
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.simulation.bench import SimulatedBench
 

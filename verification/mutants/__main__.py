@@ -20,7 +20,7 @@ from queue import SimpleQueue
 
 from rich.console import Console
 
-from equipoise.maths.kernel_cache import kernels_folder
+from equipoise.maths.kernels.kernel_cache import kernels_folder
 from verification.mutants.catalogue import MUTANTS, Mutant
 
 ROOT = Path(__file__).parents[2]

@@ -35,7 +35,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.maths.bounded_simplex import Table, level_of, minimise
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Bools, Floats, Ints, Vector3
 from equipoise.model.testbed import SlidingMass
 

@@ -16,7 +16,7 @@ and zero of every other unknown. Where a mass starts or stops the rate jumps; th
 
 from equipoise.dynamics.rigid_body import KNOWN_D, A, B, Now, between, times
 from equipoise.dynamics.sensitivities import ERROR, INERTIA, Inputs
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Six, Triple
 
 

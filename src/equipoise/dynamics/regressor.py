@@ -16,7 +16,7 @@ The batch methods integrate these columns; the propagator's sensitivities are fo
 (da Silva 2021 Eqs. 13-15 with the signs of a laboratory whose Z points up; Lee Eq. 3.)
 """
 
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Triple
 
 INERTIA, MOMENT, TORQUE = 0, 6, 9  # first column of each block

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from equipoise.dynamics.regressor import DRIFT, N_TORQUES, THERMAL, torque_columns
 from equipoise.dynamics.regressor import TORQUE as TORQUE_COLUMN
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Six, Triple
 
 ROWS = 7  # of the state before the sensitivities: q, H

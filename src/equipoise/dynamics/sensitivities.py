@@ -22,7 +22,7 @@ from equipoise.dynamics.regressor import MOMENT as MOMENT_COLUMN
 from equipoise.dynamics.regressor import QUADRATIC, SAG, SWIRL, WIDTH, regressor
 from equipoise.dynamics.regressor import TORQUE as TORQUE_COLUMN
 from equipoise.dynamics.rigid_body import HM, KNOWN_D, ROWS, A, B, Body, Now, between, cross, times
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats, Ints, Nine, Six, Triple
 
 TURN, RATE, INERTIA, MOMENT, TORQUE, ERROR = 0, 1, 2, 3, 4, 5  # kinds of column

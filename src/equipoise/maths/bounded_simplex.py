@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Bools, Floats, Ints
 
 TINY, WON = 1e-9, 1e-15  # -, chosen: a pivot, and a share of the costs, that are rounding

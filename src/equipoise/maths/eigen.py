@@ -7,7 +7,7 @@
 falls with the square of itself in each sweep.
 """
 
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Six, Triple
 
 SWEEPS = 8  # chosen: six bring any matrix to rounding

@@ -10,7 +10,7 @@ standard deviations.
 
 import numpy as np
 
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats
 
 FREE = 1e-2  # damping beyond which a small promise may only say that steps are kept small

@@ -9,7 +9,7 @@ may be uneven. Bias grows as the window to the power of the degree; noise falls 
 import numpy as np
 
 from equipoise.maths.attitude import difference, exponential, multiply
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Series1, Series3, Series4

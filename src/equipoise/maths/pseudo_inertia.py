@@ -12,7 +12,7 @@ a1 a2 a3 b12 b13 b23.
 
 import numpy as np
 
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.eigen import eigen
 from equipoise.model.arrays import Floats, Matrix3, Six, Vector6
 

@@ -7,7 +7,7 @@ Written out because kernels that search or smooth row by row make no arrays, whi
 
 import numpy as np
 
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats, Square
 
 

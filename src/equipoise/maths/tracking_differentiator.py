@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats, Series, Series1
 
 MARGIN = 4.0  # chosen: a jump as large as the whole range asks for 1.74 range / h0^2

@@ -5,7 +5,7 @@ Quaternions as in ``maths.attitude``, of which these are the single-sample forms
 
 import numpy as np
 
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Triple
 
 NO_TURN = 1e-9  # rad; below it sin(x) / x is 1 to rounding

@@ -8,7 +8,7 @@ T = sqrt(r dt / q): as much as one can know, and no window to choose. Columns ar
 
 import numpy as np
 
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.model.arrays import Floats, Series, Series1
 
 

@@ -1,9 +1,11 @@
 """Names for array shapes.
 
 Time comes first in a series. Everything real is float64. The shapes are checked at run time in the
-tests only; for the reader and the type checker they are plain arrays.
+tests only, which load the checker first; for the reader, the type checker and in use they are plain
+arrays.
 """
 
+import sys
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +21,7 @@ Triple = tuple[float, float, float]
 Six = tuple[float, float, float, float, float, float]
 Nine = tuple[float, float, float, float, float, float, float, float, float]
 
-if TYPE_CHECKING:
+if TYPE_CHECKING or "jaxtyping" not in sys.modules:
     Vector3 = NDArray[np.float64]
     Vector6 = NDArray[np.float64]
     Quaternion = NDArray[np.float64]

@@ -18,7 +18,7 @@ A small change dth of the attitude (body axes), dphi and deta appear as
 
 from typing import NamedTuple
 
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.turns import to_body, to_laboratory, turned
 from equipoise.model.arrays import Floats, Triple
 

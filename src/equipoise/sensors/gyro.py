@@ -5,7 +5,7 @@ w_said = (E + M) w( t - c (t - t0) ) + b    M: scale errors on the diagonal, mis
 A row is stamped t by a clock that is fast by c beside the camera's.
 """
 
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Nine
 from equipoise.sensors.camera import CLOCK, GYRO
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Series1, Series3
 from equipoise.simulation.clock import tick

@@ -20,7 +20,7 @@ import numpy as np
 
 from equipoise.dynamics.propagation import to_unit
 from equipoise.dynamics.rigid_body import Now, cross, rate_of, times
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Triple, Vector3
 
 LYING = 1e-12  # of the cosine of the tilt, chosen: rounding

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from equipoise.dynamics.propagation import step
 from equipoise.dynamics.rigid_body import Body, body_at
 from equipoise.dynamics.sensitivities import Inputs, Work
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats
 from equipoise.simulation.stop import (
     STILL,

@@ -23,7 +23,7 @@ from equipoise.estimation.methods import (
     ukf_12,
 )
 from equipoise.maths.attitude import difference, exponential, multiply
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.mass_properties import MassProperties

@@ -7,10 +7,8 @@ import time
 from collections.abc import Callable
 from functools import cache, partial
 
-from numba.core import event
-
-from equipoise.app.console.compile_notice import COMPILE, Compiling
 from equipoise.estimation.search_budget import Budget, Stage, unwatched
+from equipoise.maths.kernels.compile_events import LISTENERS, Listener
 
 
 class CompilerTime:
@@ -32,7 +30,7 @@ class CompilerTime:
 def compiler_time() -> CompilerTime:
     """Return the compiler's time in this process, counted from the first call on."""
     found = CompilerTime()
-    event.register(COMPILE, Compiling(found.begin, found.end))
+    LISTENERS.append(Listener(found.begin, found.end))
     return found
 
 

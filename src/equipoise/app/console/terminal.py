@@ -87,7 +87,7 @@ def busy(
     Cut off from a terminal, ``announce`` says whether its beginning is printed, and what would
     stand ``above`` is not shown.
     """
-    from equipoise.app.console.compile_notice import compiler_notices
+    from equipoise.maths.kernels.compile_events import compiler_notices
 
     sign = _SignOfLife(what, announce, above)
 

@@ -34,7 +34,7 @@ from equipoise.control.law import Sample
 from equipoise.dynamics.regressor import TORQUE, WIDTH, torque_columns
 from equipoise.dynamics.sag_trim import sag_matrix
 from equipoise.maths.attitude import to_matrix
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.maths.linalg import cross, skew
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.testbed import SlidingMass, Testbed

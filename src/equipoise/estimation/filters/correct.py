@@ -16,7 +16,7 @@ from equipoise.dynamics.rigid_body import Now, rate_of, times
 from equipoise.estimation.filters.model import Model
 from equipoise.estimation.filters.predict import COM, INERTIA, Work
 from equipoise.estimation.tracker.predict_correct import invert3
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.maths.turns import turn, turned
 from equipoise.model.arrays import Floats, Triple
 

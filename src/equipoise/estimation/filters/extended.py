@@ -21,7 +21,7 @@ from equipoise.estimation.filters.predict import (
     stride,
     write_back,
 )
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats
 
 

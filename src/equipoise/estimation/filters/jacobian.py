@@ -25,7 +25,7 @@ from equipoise.dynamics.regressor import cross_columns, momentum_columns
 from equipoise.dynamics.rigid_body import Now, cross, invert, times
 from equipoise.dynamics.sensitivities import cross_twice, dot
 from equipoise.estimation.filters.model import Model
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Six, Triple
 
 

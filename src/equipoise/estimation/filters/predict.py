@@ -27,7 +27,7 @@ from equipoise.dynamics.rigid_body import (
 )
 from equipoise.estimation.filters.model import Model
 from equipoise.estimation.tracker.predict_correct import placed
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Six, Triple
 
 COM, INERTIA = 7, 10  # where they stand in a state: q, H, com, J

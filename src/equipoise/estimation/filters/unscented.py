@@ -20,7 +20,7 @@ from equipoise.estimation.filters.predict import (
     stride,
     write_back,
 )
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.maths.turns import turn, turned
 from equipoise.model.arrays import Floats, Triple
 

@@ -14,7 +14,7 @@ from equipoise.estimation.filters.model import FIRST_RATE, Model
 from equipoise.estimation.filters.predict import COM, Drive, Work, placed_at
 from equipoise.estimation.filters.rows import Rows
 from equipoise.estimation.filters.unscented import unscented
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats
 
 NOTED = 1 + 9 + 9 + 1  # t; com, J; sd of c and J; surprise

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.estimation.motion.sensor_noise import camera_noise, gyro_noise
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.maths.turns import turn, turned
 from equipoise.model.arrays import Floats, Ints, Quaternion, Series, Series1, Vector3
 from equipoise.model.recording import Recording, Samples

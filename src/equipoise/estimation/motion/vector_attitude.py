@@ -17,7 +17,7 @@ import numpy as np
 import scipy
 
 from equipoise.maths.attitude import exponential, from_matrix, multiply, normalise, to_matrix
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Series1, Series3, Series4, Vector3
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import Gyro

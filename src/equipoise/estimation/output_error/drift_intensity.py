@@ -42,7 +42,7 @@ from equipoise.estimation.output_error.kernels.segments import (
 from equipoise.estimation.output_error.problem import posed
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.retraction import coordinates_of
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.model.arrays import Floats, Series1
 

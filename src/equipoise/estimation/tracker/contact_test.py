@@ -22,7 +22,7 @@ from equipoise.estimation.tracker.event_signatures import (
     Room,
     Watch,
 )
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 
 YOUNGEST = 3  # rows, chosen: a contact shows in more than two
 JUMP_SD, STEP_SD = 0.1, 1e-4  # rad/s and m, wide: what a contact may do

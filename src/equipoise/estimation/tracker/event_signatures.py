@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.tracker.predict_correct import SIZE, Work, ahead
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Ints, Triple
 
 ONSETS = 12

@@ -42,7 +42,7 @@ from equipoise.estimation.tracker.predict_correct import (
     transition,
     unit_columns,
 )
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats
 
 

@@ -9,7 +9,7 @@ from equipoise.dynamics.sensitivities import BLOCK, Columns, work_for
 from equipoise.dynamics.sensitivities import Work as StepWork
 from equipoise.estimation.tracker.event_signatures import COLUMNS, MANY, Room, Watch
 from equipoise.estimation.tracker.predict_correct import SIZE, N, Work
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.model.arrays import Floats, Ints, Square
 
 CAMERA, GYRO = 0, 1  # sensors

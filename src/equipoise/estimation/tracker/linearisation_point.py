@@ -14,7 +14,7 @@ makes T the same by whatever points one goes.
 
 import numpy as np
 
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.model.arrays import Floats
 

@@ -31,7 +31,7 @@ from equipoise.estimation.tracker.predict_correct import (
     shrink,
     weigh,
 )
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Ints, Triple
 

@@ -11,7 +11,7 @@ wrong kind or onset would cost.
 from equipoise.estimation.tracker.contact_test import LIKELY
 from equipoise.estimation.tracker.event_signatures import COUNT, MANY, ONSETS, Room, Watch
 from equipoise.estimation.tracker.predict_correct import SIZE
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats
 
 ROUGH = 0.1  # chosen: of the correction, one sd, for being linear in a motion that was off

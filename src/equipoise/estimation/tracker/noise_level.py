@@ -9,7 +9,7 @@ by a few hundredths at most. With the least gain k wanders by some 6 % (one sd),
 change is followed within some hundred rows.
 """
 
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats
 
 BOUND, MEAN = 3.0, 0.9788085  # mean of min(chi2_3 / 3, 3)

@@ -12,7 +12,7 @@ from equipoise.dynamics.regressor import momentum_columns
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, rate_of, times
 from equipoise.dynamics.sensitivities import LANES
 from equipoise.estimation.tracker.linearisation_point import AT
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints, Six, Triple
 

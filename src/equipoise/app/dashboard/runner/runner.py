@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from equipoise.app.console.compile_notice import compiler_notices
+from equipoise.maths.kernels.compile_events import compiler_notices
 from equipoise.app.console.terminal import COMPILING
 from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
 from equipoise.app.dashboard.runner.benches import Station, let_go

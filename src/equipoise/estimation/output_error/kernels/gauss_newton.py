@@ -61,7 +61,7 @@ from equipoise.estimation.parameters.retraction import (
     retract,
     step_work_for,
 )
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.levenberg_marquardt import FREE, NEAR, judge, promise, tolerated
 from equipoise.model.arrays import Floats, Ints
 

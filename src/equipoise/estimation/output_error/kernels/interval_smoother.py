@@ -33,7 +33,7 @@ from equipoise.estimation.output_error.kernels.segments import (
     chain_for,
     count_free,
 )
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats, Ints
 
 

@@ -58,7 +58,7 @@ from equipoise.estimation.output_error.kernels.vector_rows import (
     vector_in_body,
     vector_residual,
 )
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.turns import to_body, turn
 from equipoise.model.arrays import Floats, Ints, Nine, Six, Triple
 from equipoise.sensors.camera import CLOCK, DELAY, column, less_cross, said, seeing

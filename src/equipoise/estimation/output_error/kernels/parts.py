@@ -28,7 +28,7 @@ from equipoise.dynamics.sensitivities import ERROR, Columns
 from equipoise.dynamics.timeline import Timeline
 from equipoise.estimation.output_error.kernels.normal_equations import Pass, pass_for
 from equipoise.estimation.output_error.kernels.segments import STATE, add_scaled
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Bools, Floats, Ints
 
 SHORT = 16  # steps, chosen: a shorter stand is part of the travel

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.model.arrays import Floats, Ints
 

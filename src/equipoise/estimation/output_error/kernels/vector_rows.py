@@ -19,7 +19,7 @@ from equipoise.dynamics.angular_acceleration import (
 )
 from equipoise.dynamics.rigid_body import ROWS, Now, cross, times
 from equipoise.dynamics.sensitivities import LANES, Inputs, Work, place, spot
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 from equipoise.maths.turns import to_body
 from equipoise.model.arrays import Floats, Ints, Triple
 

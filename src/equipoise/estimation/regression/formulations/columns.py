@@ -17,7 +17,7 @@ from equipoise.dynamics.lamp_warmth import temperature_of
 from equipoise.dynamics.regressor import MOMENT, TORQUE, WIDTH, regressor
 from equipoise.dynamics.timeline import straight_lines, warmth
 from equipoise.maths.attitude import to_matrix
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.straight_lines import integral_at
 from equipoise.model import torque_terms

@@ -20,7 +20,7 @@ from equipoise.estimation.regression.formulations.columns import columns
 from equipoise.estimation.regression.formulations.momentum import body_axes
 from equipoise.estimation.regression.formulations.rows import Posed, Rows
 from equipoise.estimation.regression.formulations.torque import differentiated, even_savitzky_golay
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 from equipoise.model.arrays import Floats, Ints, Series1, Series3
 
 WRONG = 0.2  # chosen: of the accelerations, more than a CAD model is wrong by

@@ -31,7 +31,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Rows
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Ints, Series, Square
 

@@ -21,7 +21,7 @@ from numba import config
 from numba.core.caching import CacheImpl
 from numba.misc.appdirs import AppDirs
 
-PACKAGE = Path(__file__).resolve().parent.parent
+PACKAGE = Path(__file__).resolve().parents[2]
 SELF = Path(__file__).resolve().relative_to(PACKAGE)  # how kernels are kept changes none of them
 IMPORT = re.compile(rb"^\s*(?:from|import) equipoise\.?([\w.]*)(?: import (\([^)]*\)|.*))?", re.M)
 WORD = re.compile(r"\w+")
@@ -95,7 +95,7 @@ def kernels_folder() -> Path:
 
 
 def _places() -> tuple[Path, Path]:
-    return kernels_folder(), PACKAGE / "maths" / "__pycache__"
+    return kernels_folder(), PACKAGE / "maths" / "kernels" / "__pycache__"
 
 
 def _forget(place: Path, before: float) -> None:

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from equipoise.maths import kernel_cache
-from equipoise.maths.kernel_cache import PACKAGE, folder_of, imported, stamp
+from equipoise.maths.kernels import kernel_cache
+from equipoise.maths.kernels.kernel_cache import PACKAGE, folder_of, imported, stamp
 
 CALLER = """\
 '''A kernel that calls a part of another module.'''
 from equipoise.low.part import twice
-from equipoise.maths.compiled import kernel
+from equipoise.maths.kernels.compiled import kernel
 
 @kernel
 def above(x: float) -> float:
@@ -23,7 +23,7 @@ def above(x: float) -> float:
 PART = """\
 '''A part.'''
 from equipoise.low.factor import FACTOR
-from equipoise.maths.compiled import part
+from equipoise.maths.kernels.compiled import part
 
 @part
 def twice(x: float) -> float:
@@ -33,7 +33,7 @@ RUN = """\
 import sys
 from equipoise.high.caller import above
 from numba.core import event
-from equipoise.maths import kernel_cache
+from equipoise.maths.kernels import kernel_cache
 compiled = []
 class Listener(event.Listener):
     def on_start(self, event): compiled.append(event)

@@ -1,10 +1,6 @@
-"""The one door to the compiler, so that the type checker keeps seeing plain functions.
+"""Results of kernels, made without a line of Python, so that no signal can interrupt it.
 
-A kernel is a pure function of arrays, compiled on first use and cached on disk. Fused
-multiply-add and reassociation are allowed; NaN and infinity keep their meaning.
-
-A kernel hands its result to Python without a line of Python, so that no signal can interrupt it. A
-signal's handler runs between two lines of Python (bytecodes). For an array that is returned, the
+A signal's handler runs between two lines of Python (bytecodes). For an array that is returned, the
 compiler's own way ("boxing", ``numba/core/boxing.py``) looks the array's class up in Python; for a
 named tuple it also calls the class's ``__new__``, which is Python. A handler that raises there, as
 the one for Ctrl-C does, leaves a null pointer that nobody checks, and the interpreter crashes.
@@ -17,49 +13,17 @@ but the compiler checks what comes of that. Functions of other packages are left
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, TypeVar, cast
+from typing import Any
 
-import numba
 from llvmlite import ir
 from numba.core import boxing, cgutils, pythonapi, types
 from numba.np import numpy_support
 
-from equipoise.maths.inlined import Inlined
-from equipoise.maths.kernel_cache import install
-
-Function = TypeVar("Function", bound=Callable[..., Any])
-FAST = {"contract", "reassoc", "nsz", "arcp"}
-CODE: dict[str, Any] = {"nogil": True, "fastmath": FAST, "error_model": "numpy"}
-OPTIONS: dict[str, Any] = {**CODE, "cache": True}
-MERGED: dict[str, Any] = {
-    **CODE,
-    "forceinline": True,
-    "_nrt": False,
-    "no_cpython_wrapper": True,
-    "no_cfunc_wrapper": True,
-}
 Boxer = Callable[[Any, Any, Any], Any]  # of a type, a native value, a context: a Python object
 ADAPTER = "NRT_adapt_ndarray_to_python_acqref"  # numba/core/runtime/_nrt_python.c
-RETURNING_IN_C: set[str] = set()  # modules with kernels
+MODULES: set[str] = set()  # with kernels
 native: Any = cgutils
 usual: Any = boxing
-
-
-def kernel(function: Function) -> Function:
-    """Compile a function of arrays and numbers; it runs without the interpreter's lock."""
-    RETURNING_IN_C.add(function.__module__)
-    return cast(Function, numba.njit(**OPTIONS)(function))
-
-
-def part(function: Function) -> Function:
-    """Compile a function that other kernels call; it is merged into each caller.
-
-    Without this, every call would copy the descriptors of all arrays it is given. A part makes no
-    arrays and keeps no count of who uses which: counting, two atomic operations for each view of
-    an array, took half the time of a fit.
-    """
-    RETURNING_IN_C.add(function.__module__)
-    return cast(Function, Inlined(function, MERGED, OPTIONS))
 
 
 def _constant(context: Any, what: object) -> Any:
@@ -99,19 +63,15 @@ def _named_tuple_in_c(typ: Any, value: Any, context: Any) -> Any:
 
 def _only_ours(in_c: Boxer, before: Boxer) -> Boxer:
     def box(typ: Any, value: Any, context: Any) -> Any:
-        ours = context.env_manager.env.globals.get("__name__") in RETURNING_IN_C
+        ours = context.env_manager.env.globals.get("__name__") in MODULES
         return (in_c if ours else before)(typ, value, context)
 
     return box
 
 
-def _return_in_c() -> None:
+def install() -> None:
     """Let the compiler return the results of kernels in C."""
     boxers = pythonapi._boxers.functions  # pyright: ignore # its one list of ways
     named = _only_ours(_named_tuple_in_c, usual.box_namedtuple)
     boxers[types.Array] = _only_ours(_array_in_c, usual.box_array)
     boxers[types.NamedTuple] = boxers[types.NamedUniTuple] = named
-
-
-install()
-_return_in_c()

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from equipoise.maths.compiled import kernel, part
+from equipoise.maths.kernels.compiled import kernel, part
 from tests.support import kernel_calls, thorough
 
 ROOT = Path(__file__).parents[2]

@@ -4,14 +4,12 @@ The compiler makes a function that others call ready to run by itself: it optimi
 into machine code, and wraps it for Python. For a function that is always inlined, whoever calls it
 does the same again, and whoever calls that. Of the time that compiling took, half went there.
 
-Here such a function stops at the code before optimisation (LLVM IR), which kernels link. Whoever
-calls it from Python gets a kernel of it alone, made when it is first called.
+Here such a function stops at the code before optimisation (LLVM IR), which kernels link.
 """
 
 from collections.abc import Callable
 from typing import Any
 
-import numba
 from numba.core import compiler, registry
 from numba.core.codegen import JITCodeLibrary
 
@@ -42,24 +40,17 @@ class InlinedCompiler(compiler.Compiler):
 
 
 class Inlined(registry.CPUDispatcher):
-    """A function that kernels inline, and that Python may call."""
+    """A function that kernels inline."""
 
-    def __init__(self, function: Callable[..., Any], options: dict[str, Any], usual: Any) -> None:
+    def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
         super().__init__(
             py_func=function,
             targetoptions={"nopython": True, "boundscheck": None, **options},
             pipeline_class=InlinedCompiler,
         )
-        self._usual, self._kernel = usual, None
 
     def add_overload(self, cres: Any) -> None:
         """Know a compiled function by a name of its own: it has no address that would be one."""
         known = cres._replace(entry_point=[].append)
         self.targetctx.insert_user_function(known.entry_point, known.fndesc, [known.library])
         super().add_overload(known)
-
-    def __call__(self, *arguments: Any) -> Any:
-        """Run the function by itself."""
-        if self._kernel is None:
-            self._kernel = numba.njit(**self._usual)(self.py_func)
-        return self._kernel(*arguments)

@@ -1,0 +1,40 @@
+"""The compiler (Numba) as it is used here; loaded when the first kernel is called.
+
+Fused multiply-add and reassociation are allowed; NaN and infinity keep their meaning.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+
+from equipoise.maths.kernels import compile_events, kernel_cache, returned_in_c
+from equipoise.maths.kernels.inlined import Inlined
+
+FAST = {"contract", "reassoc", "nsz", "arcp"}
+CODE: dict[str, Any] = {"nogil": True, "fastmath": FAST, "error_model": "numpy"}
+OPTIONS: dict[str, Any] = {**CODE, "cache": True}
+MERGED: dict[str, Any] = {
+    **CODE,
+    "forceinline": True,
+    "_nrt": False,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+}
+
+
+def callable_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that Python calls."""
+    returned_in_c.MODULES.add(function.__module__)
+    return numba.njit(**OPTIONS)(function)
+
+
+def inlined_part(function: Callable[..., Any]) -> Inlined:
+    """Return a function that kernels call."""
+    returned_in_c.MODULES.add(function.__module__)
+    return Inlined(function, MERGED)
+
+
+kernel_cache.install()
+returned_in_c.install()
+compile_events.install()
