@@ -40,6 +40,7 @@ from equipoise.dynamics.sensitivities import (
     work_for,
 )
 from equipoise.dynamics.timeline import Timeline
+from equipoise.maths.copying import copy_values
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Triple, Vector3, Vector6
@@ -231,8 +232,8 @@ def _run(body: Body, inputs: Inputs, q0: Floats, w0: Floats, out: Motion) -> Non
         if node == 0:
             start(body, now, inputs, i, share, q0, w0, y, work)
         rate, _ = evaluate(body, now, inputs, i, share, y, work)
-        out.q[node] = y[:4]
-        out.momentum[node] = y[4:7]
+        copy_values(y[:4], out.q[node])
+        copy_values(y[4:7], out.momentum[node])
         for j in range(3):
             out.rate[node, j] = rate[j]
             for c in range(n):

@@ -19,6 +19,7 @@ import numpy as np
 from equipoise.dynamics.propagation import NO_COLUMNS, evaluate, step
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at
 from equipoise.dynamics.sensitivities import Columns, Inputs, work_for
+from equipoise.maths.copying import copy_values
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats, Ints, Triple
 from equipoise.simulation.stop import NO_STOP, Stop, is_beyond
@@ -88,7 +89,7 @@ def _run(
     t3, known3, before = np.zeros(3), np.zeros((3, known.shape[1])), y.copy()
     inputs, work = Inputs(maps, t3, known3, owners, columns), work_for(0)
     course = Course(body, stop, t, known, inputs, work)
-    path[0] = y
+    copy_values(y, path[0])
     for node in range(t.shape[0] - 1):
         lay(t, known, node, 0.0, 1.0, t3, known3)
         now = body_at(body, maps, t3, known3, 1, 0.0)
@@ -100,13 +101,13 @@ def _run(
             first, last = j / n, (j + 1) / n
             if n > 1:
                 lay(t, known, node, first, last, t3, known3)
-            before[:] = y
+            copy_values(y, before)
             step(body, inputs, 1, y, work)
             if is_beyond(stop, y):
                 strike(course, node, first, last, before, y, touch[node + 1])
         now = body_at(body, maps, t3, known3, 1, 1.0)
         w, _ = evaluate(body, now, inputs, 1, 1.0, y, work)
-        path[node + 1] = y
+        copy_values(y, path[node + 1])
         rates[node + 1, 0], rates[node + 1, 1], rates[node + 1, 2] = w
 
 

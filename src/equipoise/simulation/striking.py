@@ -12,6 +12,7 @@ from typing import NamedTuple
 from equipoise.dynamics.propagation import step
 from equipoise.dynamics.rigid_body import Body, body_at
 from equipoise.dynamics.sensitivities import Inputs, Work
+from equipoise.maths.copying import copy_values
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats
 from equipoise.simulation.stop import (
@@ -77,10 +78,10 @@ def strike(
     stop, met = course.stop, first
     if not lies(stop, before):
         met = meeting(course, node, first, last, before, y)
-        y[:] = before
+        copy_values(before, y)
         advance(course, node, first, met, y)
         lay_down(course, y, touch)
-        before[:] = y
+        copy_values(y, before)
     if met < last:
         press(course, node, met, last, before, y, touch)
 
@@ -93,7 +94,7 @@ def meeting(
     early, late = first, last
     for _ in range(HALVINGS):
         middle = 0.5 * (early + late)
-        y[:] = before
+        copy_values(before, y)
         advance(course, node, first, middle, y)
         early, late = (early, middle) if is_beyond(course.stop, y) else (middle, late)
     return late
@@ -110,7 +111,8 @@ def press(
     span, yields = inputs.t[2] - inputs.t[1], yielding(stop, start, before)
     p = pushed = 0.0
     for _ in range(TRIES):
-        y[:], pushed = before, p
+        pushed = p
+        copy_values(before, y)
         push(stop, pushed, y)
         step(body, inputs, 1, y, work)
         p += excess(stop, y) / (span * yields)

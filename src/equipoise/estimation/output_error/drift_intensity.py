@@ -28,7 +28,7 @@ from equipoise.estimation.output_error.kernels.gauss_newton import (
     add_priors,
     local_for,
 )
-from equipoise.estimation.output_error.kernels.interval_smoother import pieces_at
+from equipoise.estimation.output_error.kernels.gauss_newton import pieces_at
 from equipoise.estimation.output_error.kernels.segments import (
     Chain,
     Cuts,

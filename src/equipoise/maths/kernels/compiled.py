@@ -14,9 +14,9 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 class Kernel:
     """A function that is compiled when it is first called, or first met in another kernel."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Callable[..., Any], merged: bool) -> None:
         update_wrapper(self, function)
-        self.py_func = function
+        self.py_func, self._merged = function, merged
 
     @cached_property
     def compiled(self) -> Callable[..., Any]:
@@ -25,12 +25,19 @@ class Kernel:
 
         return callable_kernel(self.py_func)
 
+    @cached_property
+    def linked(self) -> Callable[..., Any]:
+        """The same function as kernels call it: nothing is made for it but in them."""
+        from equipoise.maths.kernels.compiler import linked_kernel
+
+        return linked_kernel(self.py_func, self._merged)
+
     @property
     def _numba_type_(self) -> Any:
         """What the compiler reads where a kernel names this function."""
         from numba.core import types
 
-        return types.Dispatcher(self.compiled)
+        return types.Dispatcher(self.linked)
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the machine code for arguments of these types."""
@@ -41,27 +48,9 @@ class Kernel:
         return self.py_func.__qualname__
 
 
-class Part(Kernel):
-    """A function that exists only within the kernels that call it, unless Python calls it."""
-
-    @cached_property
-    def inlined(self) -> Any:
-        """The same function as kernels call it."""
-        from equipoise.maths.kernels.compiler import inlined_part
-
-        return inlined_part(self.py_func)
-
-    @property
-    def _numba_type_(self) -> Any:
-        """What the compiler reads where a kernel names this function."""
-        from numba.core import types
-
-        return types.Dispatcher(self.inlined)
-
-
 def kernel(function: Function) -> Function:
     """Compile a function of arrays and numbers; it runs without the interpreter's lock."""
-    return cast(Function, Kernel(function))
+    return cast(Function, Kernel(function, merged=False))
 
 
 def part(function: Function) -> Function:
@@ -71,4 +60,4 @@ def part(function: Function) -> Function:
     arrays and keeps no count of who uses which: counting, two atomic operations for each view of
     an array, took half the time of a fit.
     """
-    return cast(Function, Part(function))
+    return cast(Function, Kernel(function, merged=True))

@@ -9,18 +9,17 @@ from typing import Any
 import numba
 
 from equipoise.maths.kernels import compile_events, kernel_cache, returned_in_c
-from equipoise.maths.kernels.inlined import Inlined
+from equipoise.maths.kernels.linked import Linked
 
 FAST = {"contract", "reassoc", "nsz", "arcp"}
 CODE: dict[str, Any] = {"nogil": True, "fastmath": FAST, "error_model": "numpy"}
 OPTIONS: dict[str, Any] = {**CODE, "cache": True}
-MERGED: dict[str, Any] = {
+LINKED: dict[str, Any] = {
     **CODE,
-    "forceinline": True,
-    "_nrt": False,
     "no_cpython_wrapper": True,
     "no_cfunc_wrapper": True,
 }
+MERGED: dict[str, Any] = {**LINKED, "forceinline": True, "_nrt": False}
 
 
 def callable_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -29,10 +28,10 @@ def callable_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     return numba.njit(**OPTIONS)(function)
 
 
-def inlined_part(function: Callable[..., Any]) -> Inlined:
+def linked_kernel(function: Callable[..., Any], merged: bool) -> Linked:
     """Return a function that kernels call."""
     returned_in_c.MODULES.add(function.__module__)
-    return Inlined(function, MERGED)
+    return Linked(function, MERGED if merged else LINKED)
 
 
 kernel_cache.install()

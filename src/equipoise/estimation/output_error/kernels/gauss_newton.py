@@ -61,6 +61,7 @@ from equipoise.estimation.parameters.retraction import (
     retract,
     step_work_for,
 )
+from equipoise.maths.copying import copy_rows, copy_values
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.levenberg_marquardt import FREE, NEAR, judge, promise, tolerated
 from equipoise.model.arrays import Floats, Ints
@@ -220,7 +221,7 @@ def along_stretch(
     return cost, iq, iw, iv, finite
 
 
-@kernel  # not a part: smoothing calls it too
+@part
 def search_along(
     posed: Posed, known: Floats, at: Local, share: Share, step: Floats, here: Floats, behind: Floats
 ) -> float:
@@ -230,15 +231,12 @@ def search_along(
     """
     cuts, pieces, finite = posed.cuts, at.pieces, True
     cost, iq, iw, iv, last = jump_cost(cuts, pieces.jumps), 0, 0, 0, cuts.free.shape[0]
-    for j in range(here.shape[0]):
-        here[j] = at.point[j]
+    copy_values(at.point, here)
     for k in range(last + 1):
         if k > 0:
             jump(posed, k - 1, pieces.jumps, step, here, behind)
-            for j in range(here.shape[0]):
-                here[j] = behind[j]
-        for j in range(here.shape[0]):
-            pieces.points[k, j] = here[j]
+            copy_values(behind, here)
+        copy_values(here, pieces.points[k])
         of_data, iq, iw, iv, is_finite = along_stretch(posed, known, k, here, (iq, iw, iv), at,
                                                        share)  # fmt: skip
         cost, finite = cost + of_data, finite and is_finite
@@ -273,19 +271,11 @@ def add_priors(posed: Posed, x: Floats, chain: Chain) -> None:
 
 
 @part
-def copy_rows(source: Floats, out: Floats) -> None:
-    """Write a matrix into another."""
-    for i in range(source.shape[0]):
-        for j in range(source.shape[1]):
-            out[i, j] = source[i, j]
-
-
-@part
 def keep(trial: Local, best: Local) -> None:
     """Make the trial the best."""
-    for k in range(best.point.shape[0]):
-        best.point[k] = trial.point[k]
+    copy_values(trial.point, best.point)
     copy_rows(trial.pieces.jumps, best.pieces.jumps)
+    copy_rows(trial.pieces.points, best.pieces.points)
     copy_rows(trial.pieces.descent, best.pieces.descent)
     for k in range(best.pieces.normal.shape[0]):
         copy_rows(trial.pieces.normal[k], best.pieces.normal[k])
@@ -326,8 +316,7 @@ def report(
     """Write A and b of the first stretch's unknowns, undamped."""
     model_at(posed, best, 0.0, x, chain)
     copy_rows(chain.normal, normal)
-    for k in range(descent.shape[0]):
-        descent[k] = chain.descent[k]
+    copy_values(chain.descent, descent)
 
 
 @kernel
@@ -386,3 +375,9 @@ def descend(
     if np.isfinite(cost):
         report(posed, best, x, chain, normal, descent)
     return Ended(cost, converged, evaluations, damping, growth)
+
+
+def pieces_at(posed: Posed, at: Local) -> None:
+    """Write the local models of all stretches at a point and its jumps."""
+    n = len(posed.slots)
+    descend(posed, at, 1, np.empty((n, n)), np.empty(n), 0.0, 0.0)

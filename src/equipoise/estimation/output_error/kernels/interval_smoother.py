@@ -13,13 +13,10 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.output_error.kernels.gauss_newton import (
-    Local,
     Posed,
     local_for,
-    search_along,
-    stop_at_commands,
+    pieces_at,
 )
-from equipoise.estimation.output_error.kernels.parts import share_for
 from equipoise.estimation.output_error.kernels.segments import (
     STATE,
     Chain,
@@ -33,6 +30,7 @@ from equipoise.estimation.output_error.kernels.segments import (
     chain_for,
     count_free,
 )
+from equipoise.maths.copying import copy_rows, copy_values
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats, Ints
 
@@ -59,12 +57,12 @@ def backward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> No
             absorb_jump(cuts, pieces, k, 0.0, chain)
             m = count_free(cuts.free[k])
             if m:
-                out.firm[k, :m, :m] = np.linalg.inv(chain.crossed[:m, :m].copy())
+                copy_rows(np.linalg.inv(chain.crossed[:m, :m].copy()), out.firm[k])
             carry_back(pieces.onward[k], chain)
             carry(pieces.onward[k], chain.gain[k], m)
         add_stretch(pieces, k, chain)
-        out.information[k] = chain.normal
-        out.score[k] = chain.descent
+        copy_rows(chain.normal, out.information[k])
+        copy_values(chain.descent, out.score[k])
 
 
 @part
@@ -105,38 +103,34 @@ def forward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: S
     n, inverse, most = first.shape[0], out.firm, STATE + cuts.free.shape[1]
     F, rows, changed = np.zeros((most, n)), np.zeros((most, n)), np.zeros(most, dtype=np.int64)
     whole, place = np.empty((n, n)), np.empty(n, dtype=np.int64)
-    out.covariance[0] = first
+    copy_rows(first, out.covariance[0])
     for k in range(cuts.free.shape[0]):
         m, count = count_free(cuts.free[k]), STATE
         place[:] = -1
         for i in range(STATE):
-            F[i], changed[i], place[i] = pieces.onward[k, i], i, i
+            changed[i], place[i] = i, i
+            copy_values(pieces.onward[k, i], F[i])
         for i in range(m):
             at = cuts.free[k, i]
             if place[at] < 0:
                 place[at], changed[count], F[count] = count, at, 0.0
                 F[count, at] = 1.0
                 count += 1
-            F[place[at]] -= chain.gain[k, i]
-        G, before = np.ascontiguousarray(chain.gain[k, :m]), out.covariance[k]
+            add_scaled(-1.0, chain.gain[k, i], F[place[at]], n)
+        G, before = chain.gain[k], out.covariance[k]
         carried(F, changed, count, out.onward, rows, whole)
-        out.onward[:] = whole
+        copy_rows(whole, out.onward)
         onto_both(F, changed, count, before, rows, out.covariance[k + 1])
-        out.jump_covariance[k, :m, :m] = inverse[k, :m, :m] + G @ np.ascontiguousarray(before) @ G.T
         for i in range(m):
+            rows[i] = 0.0
+            for j in range(n):
+                add_scaled(G[i, j], before[j], rows[i], n)
             for j in range(m):
+                total = inverse[k, i, j]
+                for c in range(n):
+                    total += rows[i, c] * G[j, c]
+                out.jump_covariance[k, i, j] = total
                 out.covariance[k + 1, cuts.free[k, i], cuts.free[k, j]] += inverse[k, i, j]
-
-
-@kernel
-def pieces_at(posed: Posed, at: Local) -> None:
-    """Write the local models of all stretches at a point and its jumps."""
-    n, size = posed.slots.shape[0], at.point.shape[0]
-    known = posed.known.copy()
-    stop_at_commands(posed, at.point, known)
-    work = share_for(posed.columns.kinds.shape[0], n)
-    step, here, behind = np.empty(n), np.empty(size), np.empty(size)
-    search_along(posed, known, at, work, step, here, behind)
 
 
 def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothed:

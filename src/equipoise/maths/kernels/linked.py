@@ -1,8 +1,8 @@
 """Functions that exist only within the kernels that call them: their code is made once, in each.
 
 The compiler makes a function that others call ready to run by itself: it optimises it, turns it
-into machine code, and wraps it for Python. For a function that is always inlined, whoever calls it
-does the same again, and whoever calls that. Of the time that compiling took, half went there.
+into machine code, and wraps it for Python. Whoever calls it does the same again with a copy of its
+code, and whoever calls that. Of the time that compiling took, half went there.
 
 Here such a function stops at the code before optimisation (LLVM IR), which kernels link.
 """
@@ -10,7 +10,7 @@ Here such a function stops at the code before optimisation (LLVM IR), which kern
 from collections.abc import Callable
 from typing import Any
 
-from numba.core import compiler, registry
+from numba.core import compiler, registry, types
 from numba.core.codegen import JITCodeLibrary
 
 
@@ -27,7 +27,7 @@ class LinkedLibrary(JITCodeLibrary):
         self._finalized = True
 
 
-class InlinedCompiler(compiler.Compiler):
+class LinkedCompiler(compiler.Compiler):
     """The usual steps, without those that make code ready to run."""
 
     def define_pipelines(self) -> list[Any]:
@@ -39,15 +39,20 @@ class InlinedCompiler(compiler.Compiler):
         return super().define_pipelines()
 
 
-class Inlined(registry.CPUDispatcher):
-    """A function that kernels inline."""
+class Linked(registry.CPUDispatcher):
+    """A function that kernels call, and nobody else."""
 
     def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
         super().__init__(
             py_func=function,
             targetoptions={"nopython": True, "boundscheck": None, **options},
-            pipeline_class=InlinedCompiler,
+            pipeline_class=LinkedCompiler,
         )
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Compile for types: a constant is an argument like another, not a function of its own."""
+        plain = {name: types.unliteral(typ) for name, typ in kws.items()}
+        return super().get_call_template(tuple(map(types.unliteral, args)), plain)
 
     def add_overload(self, cres: Any) -> None:
         """Know a compiled function by a name of its own: it has no address that would be one."""
