@@ -63,6 +63,7 @@ app = App(
     name="equipoise",
     help="Identify the mass properties of a satellite mock-up on an air bearing, and balance it.",
     version=__version__,
+    help_format="plaintext",  # the list of commands; reading Markdown is loaded for one's own page
     default_parameter=Parameter(negative=()),
     result_action="return_value",
     suppress_keyboard_interrupt=False,
@@ -75,7 +76,7 @@ COMMANDS = (
     logbook,
 )  # fmt: skip
 for command in COMMANDS:
-    app.command(command)
+    app.command(command, help_format="markdown")
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

@@ -51,8 +51,11 @@ def package(tmp_path):
         (package / room).mkdir(parents=True)
         (package / room / "__init__.py").write_text("")
     (package / "__init__.py").write_text("")
-    for name in ("compiled.py", "kernel_cache.py"):
-        shutil.copy(PACKAGE / "maths" / name, package / "maths")
+    shutil.copytree(
+        PACKAGE / "maths" / "kernels",
+        package / "maths" / "kernels",
+        ignore=shutil.ignore_patterns("__pycache__"),
+    )
     (package / "low" / "factor.py").write_text("FACTOR = 2.0\n")
     (package / "low" / "part.py").write_text(PART)
     (package / "low" / "plain.py").write_text("x = 1\n")

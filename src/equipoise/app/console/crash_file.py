@@ -7,7 +7,6 @@ which may repeat a cell. The arguments stand there as they were given: no option
 """
 
 import hashlib
-import importlib.metadata
 import os
 import platform
 import re
@@ -160,6 +159,8 @@ def _described(path: Path) -> str:
 
 def _libraries() -> Iterator[str]:
     """Yield the libraries that are there of those that Equipoise may use, with their versions."""
+    import importlib.metadata  # takes longer than the rest of the program's start
+
     with suppress(importlib.metadata.PackageNotFoundError):
         for each in importlib.metadata.requires("equipoise") or ():
             name = REQUIREMENT.match(each)

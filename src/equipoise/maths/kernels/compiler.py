@@ -4,28 +4,42 @@ Fused multiply-add and reassociation are allowed; NaN and infinity keep their me
 """
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
-import numba
+from numba.core import registry
 
 from equipoise.maths.kernels import compile_events, kernel_cache, returned_in_c
+from equipoise.maths.kernels.kernel_lock import alone
 from equipoise.maths.kernels.linked import Linked
 
 FAST = {"contract", "reassoc", "nsz", "arcp"}
-CODE: dict[str, Any] = {"nogil": True, "fastmath": FAST, "error_model": "numpy"}
-OPTIONS: dict[str, Any] = {**CODE, "cache": True}
-LINKED: dict[str, Any] = {
-    **CODE,
-    "no_cpython_wrapper": True,
-    "no_cfunc_wrapper": True,
+CODE: dict[str, Any] = {
+    "nopython": True,
+    "boundscheck": None,
+    "nogil": True,
+    "fastmath": FAST,
+    "error_model": "numpy",
 }
+LINKED: dict[str, Any] = {**CODE, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 MERGED: dict[str, Any] = {**LINKED, "forceinline": True, "_nrt": False}
+
+
+class Waiting(registry.CPUDispatcher):
+    """A kernel that is loaded where another process has compiled it."""
+
+    def compile(self, sig: Any) -> Any:
+        """Return the address of its machine code."""
+        with alone(Path(self._cache.cache_path), self.py_func.__qualname__):
+            return super().compile(sig)
 
 
 def callable_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function that Python calls."""
     returned_in_c.MODULES.add(function.__module__)
-    return numba.njit(**OPTIONS)(function)
+    made = Waiting(function, targetoptions=CODE)
+    made.enable_caching()
+    return made
 
 
 def linked_kernel(function: Callable[..., Any], merged: bool) -> Linked:

@@ -45,7 +45,7 @@ class Linked(registry.CPUDispatcher):
     def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
         super().__init__(
             py_func=function,
-            targetoptions={"nopython": True, "boundscheck": None, **options},
+            targetoptions=options,
             pipeline_class=LinkedCompiler,
         )
 
