@@ -34,6 +34,7 @@ from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
 from equipoise.app.commands.plan import plan
+from equipoise.app.commands.precompile import precompile
 from equipoise.app.commands.print_board import print_board
 from equipoise.app.commands.record import record
 from equipoise.app.commands.repair import repair
@@ -73,7 +74,7 @@ COMMANDS = (
     methods,
     balance, laws, compare, reproduce, devices, check, emulate, record, convert, repair, replay,
     track, print_board, calibrate_camera, dashboard, report,
-    logbook,
+    logbook, precompile,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command, help_format="markdown")

@@ -1,6 +1,7 @@
 """Kernels outlive copies and checkouts, and never the sources that they were made from."""
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -183,3 +184,44 @@ def test_a_place_that_cannot_be_written_is_passed_over(tmp_path, monkeypatch):
 
 def test_another_package_keeps_its_kernels_where_it_likes(tmp_path):
     assert folder_of(tmp_path / "theirs.py") is None
+
+
+OF_A_FAMILY = pytest.mark.skipif(
+    platform.machine() != "x86_64", reason="the only family with ready kernels"
+)
+
+
+@pytest.fixture
+def brought(package, called, tmp_path, monkeypatch):
+    """Return a function that compiles for a processor and has a wheel bring that along."""
+
+    def bring(processor: str) -> None:
+        monkeypatch.setenv("NUMBA_CPU_NAME", processor)
+        monkeypatch.setenv("NUMBA_CPU_FEATURES", "")
+        assert called(package) == (7.0, True)
+        for name in ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"):
+            monkeypatch.delenv(name)
+        ready = package / "maths" / "kernels" / "ready"
+        (tmp_path / "kept" / "equipoise-kernels").rename(ready)
+
+    return bring
+
+
+@OF_A_FAMILY
+def test_kernels_of_the_processors_family_are_taken_over(package, called, brought):
+    brought("x86-64-v3")
+    assert called(package) == (7.0, False)
+    assert called(copied(package)) == (7.0, False)
+
+
+@OF_A_FAMILY
+def test_kernels_of_an_unknown_family_are_not(package, called, brought):
+    brought("x86-64-v4")  # which the machine may well be; nobody has said what it has to have
+    assert called(package) == (7.0, True)
+
+
+@OF_A_FAMILY
+def test_ready_kernels_of_other_sources_are_left_alone(package, called, brought):
+    brought("x86-64-v3")
+    (package / "low" / "factor.py").write_text("FACTOR = 3.0\n")
+    assert called(package) == (10.0, True)

@@ -6,7 +6,8 @@ checkout, a copy with other times of change and a branch visited again find thei
 edited sign compiles each kernel that contains it anew, and no other.
 
 The place is the user's cache folder (`NUMBA_CACHE_DIR` where that is set), else the package
-itself. This is the one module below ``io`` that reads files.
+itself. What an installation brought along (``ready_kernels``) is taken over there. This is the one
+module below ``io`` that reads files.
 """
 
 import re
@@ -21,8 +22,11 @@ from numba import config
 from numba.core.caching import CacheImpl
 from numba.misc.appdirs import AppDirs
 
+from equipoise.maths.kernels.ready_kernels import take_ready
+
 PACKAGE = Path(__file__).resolve().parents[2]
-SELF = Path(__file__).resolve().relative_to(PACKAGE)  # how kernels are kept changes none of them
+ROOM = Path(__file__).resolve().parent.relative_to(PACKAGE)
+KEEPING = {ROOM / f"{name}.py" for name in ("kernel_cache", "kernel_lock", "ready_kernels")}
 IMPORT = re.compile(rb"^\s*(?:from|import) equipoise\.?([\w.]*)(?: import (\([^)]*\)|.*))?", re.M)
 WORD = re.compile(r"\w+")
 KEPT = 30 * 86400.0  # s without use, chosen: a branch that was left alone for a month
@@ -59,8 +63,9 @@ def _modules(package: Path, module: str, names: str) -> Iterator[Path]:
 def stamp(source: Path, package: Path = PACKAGE) -> str:
     """Return a hash of the contents of a source and of all that it imports from the package."""
     waiting, found = [source], {source}
+    keeping = {package / path for path in KEEPING}  # how kernels are kept changes none of them
     while waiting:
-        new = imported(waiting.pop(), package) - found - {package / SELF}
+        new = imported(waiting.pop(), package) - found - keeping
         found |= new
         waiting += new
     digest = sha256()
@@ -82,6 +87,7 @@ def folder_of(source: Path) -> Path | None:
             folder.mkdir(parents=True, exist_ok=True)
             (folder / MARK).touch()
             if made:
+                take_ready(folder, stamp(source))
                 _forget(place, (folder / MARK).stat().st_mtime - KEPT)
             return folder
     return None

@@ -52,12 +52,12 @@ def course(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> 
 
 
 def dots(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
-    """Draw measurements."""
+    """Draw measurements; in a drawing of lines, many are one picture, not an element each."""
     keep = thinned(len(t))
     few = len(t) <= FEW
     axes.plot(
         t[keep], y[keep], ".", color=colour, alpha=0.8 if few else 0.45, markeredgewidth=0,
-        markersize=5.5 if few else None, label=label or None,
+        markersize=5.5 if few else None, label=label or None, rasterized=not few,
     )  # fmt: skip
 
 

@@ -1,0 +1,33 @@
+"""`equipoise precompile`: all kernels, before somebody waits for them."""
+
+from equipoise.app.console.terminal import counted, print_whole
+
+
+def precompile(*, workers: int | None = None) -> int:
+    """Compile everything that is compiled now, so that no later command waits for it.
+
+    Kernels are compiled once on a computer, by the first command that needs them. This runs every
+    such command once on a short simulated record, in a folder of its own that is removed again.
+
+    Parameters
+    ----------
+    workers
+        How many commands run at once. Left out: one for each processor.
+    """
+    import os
+    from pathlib import Path
+    from tempfile import TemporaryDirectory
+
+    from equipoise.app.runs.kernel_rehearsal import COMMANDS, RECORDS, rehearsed
+    from equipoise.maths.kernels.kernel_cache import kernels_folder
+
+    count = len(RECORDS) + len(COMMANDS)
+    with (
+        TemporaryDirectory(prefix="equipoise-") as folder,
+        counted("compiling kernels, once on this computer") as share,
+    ):
+        for k, _ in enumerate(rehearsed(Path(folder), workers or os.cpu_count() or 1)):
+            share((k + 1) / count)
+    kept = [path.stat().st_size for path in kernels_folder().rglob("*.nbc")]
+    print_whole(f"{len(kept)} kernels, {sum(kept) / 1e6:.1f} MB, are kept in {kernels_folder()}.")
+    return 0
