@@ -43,7 +43,7 @@ def test_measurements_along_a_recording_are_reported_and_plotted(records, tmp_pa
     text = capsys.readouterr().out
     assert "The centre of mass over time, by 4 measurements" in text
     assert "Allan deviation, 22 s" in text
-    assert (tmp_path / "o" / "figures" / "com_over_hours.png").exists()
+    assert (tmp_path / "o" / "figures" / "com_over_hours.svg").exists()
 
 
 def test_a_generous_requirement_passes(records, capsys):
@@ -75,7 +75,7 @@ def test_two_recordings_are_compared_and_the_document_holds_both(
     page = (folder / "report.html").read_text(encoding="utf-8")
     assert "rose" in page
     assert (folder / "assess.json").exists()
-    drawn = {path.stem for path in folder.glob("figures/*.png")}
+    drawn = {path.stem for path in folder.glob("figures/*.svg")}
     assert {"torque_in_range", "residual_torque", "swing_spectrum"} <= drawn
 
 

@@ -60,11 +60,11 @@ def test_methods_are_compared_and_written_down(equipoise, strict_json, tmp_path)
         1e-6 * (sum(squares) / 2) ** 0.5, rel=1e-4
     )
     page = (folder / "report.html").read_text("utf-8")
-    assert "http" not in re.sub(r"data:image/png;base64,[^\"]*", "", page)
+    assert "http" not in re.sub(r"data:image/svg[^\"]*", "", page)
     parser = Balanced()
     parser.feed(page)
     assert parser.open == []
-    assert page.count('src="data:image/png;base64,') == len(list(folder.glob("figures/*.png"))) == 2
+    assert page.count('src="data:image/svg+xml') == len(list(folder.glob("figures/*.svg"))) == 2
     assert "report.html" in done.err
 
 
@@ -128,7 +128,7 @@ def test_methods_and_laws_go_into_one_document(equipoise, strict_json, tmp_path)
     assert document["methods"]["recommended"]["com"]["name"] == "tracker"
     written = {path.name for path in (tmp_path / "here").iterdir()}
     assert written >= {"report.html", "report.pdf", "compare.json", "methods.csv", "laws.csv"}
-    assert (tmp_path / "here" / "figures" / "laws_torque.png").exists()
+    assert (tmp_path / "here" / "figures" / "laws_torque.svg").exists()
     page = (tmp_path / "here" / "report.html").read_text("utf-8")
     assert page.index("take tracker") < page.index("<h2>")
     for words in ("As the review&#x27;s Table 3", "below 50 uN m or 1 um [9]", "Take pid"):

@@ -62,7 +62,7 @@ def test_report_figures_and_document_are_written(equipoise, tmp_path):
     files = {path.relative_to(tmp_path / "found").as_posix()
              for path in (tmp_path / "found").rglob("*.*")}  # fmt: skip
     assert files >= {"report.html", "report.pdf", "report.json", "design.json"}
-    assert files >= {"figures/reach.png", "figures/budget.svg"}
+    assert files >= {"figures/reach.svg", "figures/budget.svg"}
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ def test_a_simulated_person_balances_and_it_is_written_down(equipoise, tmp_path,
     assert {p.name for p in (tmp_path / "out").iterdir()} >= {
         "report.html", "report.pdf", "balance.json", "testbed.toml", "run.json",
     }  # fmt: skip
-    assert (tmp_path / "out" / "figures" / "rounds_com.png").exists()
+    assert (tmp_path / "out" / "figures" / "rounds_com.svg").exists()
     document = strict_json((tmp_path / "out" / "balance.json").read_text(encoding="utf-8"))
     assert document["verdict"]["passed"]
     placing = next(s["placing"] for s in document["steps"] if s["kind"] == "place")

@@ -45,7 +45,7 @@ def test_a_course_is_in_the_document_and_drawn(equipoise, record_file, strict_js
     course = strict_json(done.out)["course"]
     assert course["names"] == ["com_x", "com_y", "com_z"]
     assert np.shape(course["values"]) == np.shape(course["sd"]) == (len(course["t_s"]), 3)
-    assert "com_course" in {path.stem for path in Path("found", "figures").glob("*.png")}
+    assert "com_course" in {path.stem for path in Path("found", "figures").glob("*.svg")}
 
 
 def test_error_indices_are_reported(equipoise, record_file):

@@ -36,7 +36,7 @@ def test_all_figures_and_one_document_are_written(equipoise, strict_json, tmp_pa
     assert done.code == 0
     document = strict_json(done.out)
     assert strict_json((tmp_path / "out" / "reproduce.json").read_text("utf-8")) == document
-    written = {path.name.split("_")[0] for path in (tmp_path / "out" / "figures").glob("*.png")}
+    written = {path.name.split("_")[0] for path in (tmp_path / "out" / "figures").glob("*.svg")}
     assert written == FIGURES
     page = (tmp_path / "out" / "report.html").read_text("utf-8")
     assert "From (70, 30, -30) deg" in page

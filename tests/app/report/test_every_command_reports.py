@@ -39,7 +39,7 @@ def test_the_report_holds_what_the_terminal_shows(name, equipoise, record_file, 
     for figure in (block for block in blocks if isinstance(block, Figure)):
         assert (folder / "figures" / f"{figure.name}.svg").exists()
     if name in FIGURES:
-        assert (folder / "figures" / f"{FIGURES[name]}.png").exists()
+        assert (folder / "figures" / f"{FIGURES[name]}.svg").exists()
     assert all(words in done.out for words in WORDS.get(name, ()))
 
 

@@ -30,13 +30,13 @@ VISIBLE = (r"\x1b]0;t\x07", r"a\u202eb\u200b")
 SVG = b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">%s</svg>'
 
 
-def drawn(kind):
+def drawn():
     figure = Drawn(figsize=(1, 1))
     figure.subplots().imshow([[0.0, 1.0]])
-    return rendered(figure, kind)
+    return rendered(figure, "svg")
 
 
-PNG, OWN_SVG = drawn("png"), drawn("svg")
+OWN_SVG = drawn()
 
 
 def document(*blocks, title="a run"):
@@ -46,14 +46,12 @@ def document(*blocks, title="a run"):
 @pytest.fixture
 def report(equipoise, tmp_path):
     """Return a function that writes the folder of a run and sets its report."""
-    (tmp_path / "secret.png").write_bytes(PNG)
     (tmp_path / "secret.svg").write_bytes(OWN_SVG)
 
-    def call(text, png=PNG, svg=OWN_SVG):
+    def call(text, svg=OWN_SVG):
         folder = tmp_path / "run"
         (folder / "figures").mkdir(parents=True)
         (folder / "report.json").write_text(text, encoding="utf-8")
-        (folder / "figures" / "a.png").write_bytes(png)
         (folder / "figures" / "a.svg").write_bytes(svg)
         return equipoise("report", folder), folder
 
@@ -70,6 +68,15 @@ def test_a_report_of_our_own_is_set(report):
     done, folder = report(document(Paragraph("x"), Figure("a", "it")))
     assert done.code == 0
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_figures_come_as_png_too_on_request(report, equipoise):
+    """One inch of drawing is 300 pixels wide."""
+    _, folder = report(document(Figure("a", "it")))
+    assert equipoise("report", folder, "--png").code == 0
+    picture = (folder / "figures" / "a.png").read_bytes()
+    assert picture.startswith(b"\x89PNG\r\n\x1a\n")
+    assert struct.unpack(">II", picture[16:24]) == (300, 300)
 
 
 def test_whatever_texts_hold_is_shown_and_does_nothing(report):
@@ -105,13 +112,12 @@ def test_a_figure_is_named_plainly(report, name):
     assert "plain name" in done.err
 
 
-@pytest.mark.parametrize("kind", ["png", "svg"])
-def test_a_figure_is_no_link_to_elsewhere(report, equipoise, tmp_path, kind):
+def test_a_figure_is_no_link_to_elsewhere(report, equipoise, tmp_path):
     _, folder = report(document(Paragraph("x")))
     (folder / "report.html").unlink()
     (folder / "report.json").write_text(document(Figure("a", "it")))
-    (folder / "figures" / f"a.{kind}").unlink()
-    (folder / "figures" / f"a.{kind}").symlink_to(tmp_path / f"secret.{kind}")
+    (folder / "figures" / "a.svg").unlink()
+    (folder / "figures" / "a.svg").symlink_to(tmp_path / "secret.svg")
     done = equipoise("report", folder)
     assert refused(done, folder)
     assert "a link to elsewhere" in done.err
@@ -142,11 +148,6 @@ DRAWINGS = {
 @pytest.mark.parametrize("drawing", DRAWINGS.values(), ids=DRAWINGS.keys())
 def test_a_drawing_that_is_broken_or_shows_something_else_is_refused(report, drawing):
     assert refused(*report(document(Figure("a", "it")), svg=drawing))
-
-
-@pytest.mark.parametrize("picture", [b" ", b"no picture", OWN_SVG])
-def test_a_picture_that_is_none_is_refused(report, picture):
-    assert refused(*report(document(Figure("a", "it")), png=picture))
 
 
 def nested(depth):

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
+from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import busy, show_paths
 
 
-def report(run: Path, /) -> int:
+def report(run: Path, /, *, png: Flag = False) -> int:
     """Write report.html and report.pdf of a run anew, from the parts that its folder holds.
 
     A run that was made without typst has no PDF: install it, then use this.
@@ -14,10 +15,12 @@ def report(run: Path, /) -> int:
     ----------
     run
         Folder of a run.
+    png
+        Write each figure as PNG too, of 300 pixels an inch.
     """
     with busy("setting the report", announce=False):
         from equipoise.app.report.write import set_again
 
-        paths = set_again(run)
+        paths = set_again(run, as_png=png)
     show_paths(paths)
     return 0

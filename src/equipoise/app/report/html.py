@@ -23,13 +23,13 @@ from equipoise.app.text.blocks import (
 )
 from equipoise.app.text.escaping import for_html
 
-Images = Mapping[str, bytes]  # PNG, by name
+Drawings = Mapping[str, bytes]  # SVG, by name
 TEMPLATE = Template((files("equipoise.app.report") / "page.html").read_text(encoding="utf-8"))
 
 
-def html(document: Document, images: Images) -> str:
+def html(document: Document, drawings: Drawings) -> str:
     """Return the file's text."""
-    body = "\n".join(_section(section, images) for section in document.sections)
+    body = "\n".join(_section(section, drawings) for section in document.sections)
     title, platform = for_html(document.title), for_html(document.platform)
     return TEMPLATE.substitute(title=title, platform=platform, body=body)
 
@@ -39,17 +39,17 @@ def fragment(blocks: Iterable[Block]) -> str:
     return "".join(map(_set, blocks))
 
 
-def _section(section: Section, images: Images) -> str:
+def _section(section: Section, drawings: Drawings) -> str:
     head = f"<h2>{for_html(section.title)}</h2>" if section.title else ""
     body = "".join(
-        _figure(b, images[b.name]) if isinstance(b, Figure) else _set(b) for b in section.blocks
+        _figure(b, drawings[b.name]) if isinstance(b, Figure) else _set(b) for b in section.blocks
     )
     return f"<section>{head}{body}</section>"
 
 
-def _figure(figure: Figure, image: bytes) -> str:
-    data = base64.b64encode(image).decode()
-    source = f'<img alt="{for_html(figure.name)}" src="data:image/png;base64,{data}">'
+def _figure(figure: Figure, drawing: bytes) -> str:
+    data = base64.b64encode(drawing).decode()
+    source = f'<img alt="{for_html(figure.name)}" src="data:image/svg+xml;base64,{data}">'
     return f"<figure>{source}<figcaption>{for_html(figure.caption)}</figcaption></figure>"
 
 

@@ -1,4 +1,4 @@
-"""A document as PDF, set by typst."""
+"""A document as PDF, and a drawing as PNG, set by typst."""
 
 import json
 from collections.abc import Mapping
@@ -7,11 +7,17 @@ from importlib.resources import files
 from importlib.util import find_spec
 from typing import Any
 
+from equipoise.app.report.html import Drawings
 from equipoise.app.text.blocks import Document
 from equipoise.app.text.escaping import for_typst
 from equipoise.model.errors import InputError
 
 TEMPLATE = "page.typ"
+ALONE = b"""#set page(width: auto, height: auto, margin: 0pt)
+#image("drawing.svg")
+"""
+WITH_TYPST = "the report extra: `pip install equipoise[report]`"
+PPI = 300.0  # pixels an inch, chosen: what journals want of pictures with lines
 
 
 def can_set() -> bool:
@@ -19,19 +25,30 @@ def can_set() -> bool:
     return find_spec("typst") is not None
 
 
-def pdf(document: Document, images: Mapping[str, bytes]) -> bytes:
-    """Return the file; ``images`` are the document's figures as SVG, by name; typst is there.
+def pdf(document: Document, drawings: Drawings) -> bytes:
+    """Return the file, with the document's figures; typst is there.
 
     Raises InputError with what typst says where it cannot set them.
     """
+    source = (files("equipoise.app.report") / TEMPLATE).read_bytes()
+    parts = {f"{name}.svg": drawing for name, drawing in drawings.items()}
+    inputs = {"page": json.dumps(for_typst(asdict(document)))}
+    return _set({"main.typ": source, **parts}, sys_inputs=inputs)
+
+
+def png(drawing: bytes) -> bytes:
+    """Return an SVG as a PNG of ``PPI``; InputError where typst is not there, or cannot set it."""
+    if not can_set():
+        raise InputError("a figure as PNG", "typst is not installed", WITH_TYPST)
+    return _set({"main.typ": ALONE, "drawing.svg": drawing}, format="png", ppi=PPI)
+
+
+def _set(sources: Mapping[str, bytes], **options: Any) -> bytes:
     import typst
 
-    source = (files("equipoise.app.report") / TEMPLATE).read_bytes()
-    parts = {f"{name}.svg": image for name, image in images.items()}
-    inputs = {"page": json.dumps(for_typst(asdict(document)))}
-    inside: Any = {"main.typ": source, **parts}  # its annotations know of one file only
+    inside: Any = sources  # its annotations know of one file only
     try:
-        return typst.compile(inside, sys_inputs=inputs)
+        return typst.compile(inside, **options)
     except typst.TypstError as error:
         wanted = "blocks and figures that it can set"
         raise InputError("the report as PDF", f"typst's '{error}'", wanted) from error

@@ -1,7 +1,7 @@
 """The parts of a report that the folder of a run holds, read as what a stranger may have written.
 
-A document has a size; its figures are files of the folder with plain names, PNG and SVG, and a
-drawing shows nothing that stands elsewhere.
+A document has a size; its figures are drawings (SVG) of the folder with plain names, which show
+nothing that stands elsewhere.
 """
 
 import re
@@ -16,14 +16,12 @@ from equipoise.io.files.source_file import read_bytes
 from equipoise.model.errors import InputError
 
 DOCUMENT = "report.json"
-PNG, SVG = "png", "svg"
 # Chosen, some twenty times what the longest reports of our own have.
 BYTES = 1 << 25  # of a file
 BLOCKS, TEXTS, LETTERS = 10_000, 100_000, 5_000_000
 PIXELS = 50_000_000  # of a picture within a drawing, chosen: that of a camera
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}")
 PLAIN_NAME = "a plain name of letters, digits, dashes and underscores"
-PNG_MARK = b"\x89PNG\r\n\x1a\n"
 SIZE = slice(16, 24)  # bytes of a PNG with its width and height
 EMBEDDED = re.compile(r"data:image/png;base64,\s*([A-Za-z0-9+/]{32})")
 LINKED = re.compile(r"""href\s*=\s*["'](?!#|data:image/png;base64,\s*[A-Za-z0-9+/]{32})""")
@@ -41,13 +39,9 @@ def saved_document(folder: Path) -> Document:
     return document
 
 
-def saved_figure(folder: Path, path: Path) -> bytes:
+def saved_drawing(folder: Path, path: Path) -> bytes:
     """Return a figure of the folder; InputError for what is none, or shows what is elsewhere."""
     content = _read(folder, path)
-    if path.suffix == f".{PNG}":
-        if not content.startswith(PNG_MARK):
-            raise InputError(str(path), "no PNG picture", "the figure that the run has drawn")
-        return content
     fault = _fault_of_drawing(content)
     if fault:
         raise InputError(str(path), fault, "the figure that the run has drawn, complete in itself")
