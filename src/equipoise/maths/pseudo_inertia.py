@@ -12,8 +12,8 @@ a1 a2 a3 b12 b13 b23.
 
 import numpy as np
 
-from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.eigen import eigen
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats, Matrix3, Six, Vector6
 
 FLOOR = 1e-6  # chosen: an impossible start is moved to this fraction of its trace

@@ -11,7 +11,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
-from equipoise.app.figures.balancing.balanced_com import Story
+from equipoise.app.figures.balancing.story import Story
 from equipoise.app.figures.base.files import rendered
 from equipoise.app.figures.base.strokes import MOST, thinned
 from equipoise.app.figures.base.style import STYLE

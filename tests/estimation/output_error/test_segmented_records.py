@@ -9,8 +9,7 @@ from equipoise.actuators.sliding_masses import inertia_shift
 from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
-from equipoise.estimation.output_error.kernels.gauss_newton import local_for
-from equipoise.estimation.output_error.kernels.gauss_newton import pieces_at
+from equipoise.estimation.output_error.kernels.gauss_newton import local_for, pieces_at
 from equipoise.estimation.output_error.problem import posed
 from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import evaluate, freedom, settle, smooth_at

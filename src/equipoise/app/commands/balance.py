@@ -159,7 +159,8 @@ def _run(
     """Balance the simulated platform, or the real one, and show each step."""
     with busy("preparing the bench", announce=False):
         from equipoise.app.runs.balancing import run
-        from equipoise.app.runs.terminal_waiting import at_terminal, show_step
+        from equipoise.app.runs.terminal_balancing import at_terminal
+        from equipoise.app.runs.terminal_waiting import show_step
         from equipoise.simulation.carried_out import bench_for
 
         simulated = None if on_bench.bench else bench_for(bed, limits.plan, seed)

@@ -4,9 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from equipoise.app.figures.balancing import balanced_com, displacements
+from equipoise.app.figures.balancing.story import Story
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.estimate import (
     attitude_fit,
     attitude_residual,
@@ -91,7 +92,7 @@ def of_move(
 
 
 def of_balancing(
-    recording: Recording, testbed: Testbed, tracked: TrackedCourses, story: balanced_com.Story
+    recording: Recording, testbed: Testbed, tracked: TrackedCourses, story: Story
 ) -> Iterator[Picture]:
     """Yield Figs. 14 and 15."""
     drawn = balanced_com.draw(tracked.standing, recording, story)

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.estimate import attitude_residual, step_com
 from equipoise.app.figures.estimate.step_com import Mark, Wanted

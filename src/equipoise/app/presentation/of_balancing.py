@@ -42,7 +42,7 @@ def table(done: Balancing) -> Table:
 def figure(done: Balancing) -> "Figure | None":
     """Return the centre of mass at every estimate, with target, tolerance and truth."""
     from equipoise.app.figures.balancing import balanced_steps
-    from equipoise.app.figures.balancing.balanced_com import Story
+    from equipoise.app.figures.balancing.story import Story
     from equipoise.app.views.balance_views import true_course
 
     if not measurements(done):

@@ -9,7 +9,7 @@ import numpy as np
 from equipoise.app.bench.bench_proxy import RecordedBench
 from equipoise.app.bench.step_notes import noting
 from equipoise.app.console.stop_request import cause_of, exit_code_of, number_of
-from equipoise.app.figures.balancing.balanced_com import Marked
+from equipoise.app.figures.balancing.story import Marked
 from equipoise.app.runs.waiting import as_they_come, shown
 from equipoise.app.text.before_after import Change
 from equipoise.app.text.com_estimate import ComEstimate, com_after

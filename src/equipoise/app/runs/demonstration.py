@@ -9,7 +9,7 @@ from equipoise.app.console.rich_blocks import show
 from equipoise.app.console.terminal import busy, watched
 from equipoise.app.figures.catalogue import TrueCourse
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
-from equipoise.app.runs.terminal_waiting import at_terminal
+from equipoise.app.runs.terminal_balancing import at_terminal
 from equipoise.app.runs.waiting import shown
 from equipoise.app.text.blocks import Heading
 from equipoise.app.text.com_estimate import at_home

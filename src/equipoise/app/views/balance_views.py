@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.app.figures.balancing.balanced_com import Story
+from equipoise.app.figures.balancing.story import Story
 from equipoise.app.figures.catalogue import Picture, TrueCourse, of_balancing, of_tracking
 from equipoise.app.figures.estimate.step_com import Wanted
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps

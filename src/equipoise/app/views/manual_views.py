@@ -3,7 +3,7 @@
 import numpy as np
 
 from equipoise.app.figures.balancing import rounds_com
-from equipoise.app.figures.balancing.balanced_com import Marked, Story
+from equipoise.app.figures.balancing.story import Marked, Story
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.build import estimate_sections, steps_section

@@ -27,8 +27,8 @@ from equipoise.estimation.output_error.kernels.gauss_newton import (
     Posed,
     add_priors,
     local_for,
+    pieces_at,
 )
-from equipoise.estimation.output_error.kernels.gauss_newton import pieces_at
 from equipoise.estimation.output_error.kernels.segments import (
     Chain,
     Cuts,

@@ -26,6 +26,7 @@ GROWTH, SLOWEST = 2.0, 1.06  # chosen: times that a part is longer than the one 
 SHORTEST = 0.02  # of the record, the least part to begin with
 FEW = 1 / 16  # of a record on which other starts are lost, chosen
 FEW_SWINGS = 1 / 32  # of a long record, chosen: 56 s of half an hour
+EACH = 60  # evaluations, chosen: a part that takes longer slides along what it leaves open
 FEW_ROWS = 50  # chosen: fewer are no motion
 
 
@@ -73,7 +74,7 @@ def grown(
     while share > SHORTEST and misfit(*posed(share)) > CAPTURE:
         share /= 2
     while True:
-        found = settle(*posed(share))
+        found = settle(*posed(share), most=EACH)
         point = replace(found.point, error=point.error)
         if share >= 1.0 or not found.problem.budget.allows(Stage.MOTION):
             return point

@@ -35,7 +35,8 @@ UNCUT: tuple[Jump, ...] = ()
 
 def walk(times: Series1, names: tuple[str, ...], sd: Floats) -> tuple[Jump, ...]:
     """Return the jumps of process noise: at each time, each coordinate by its sd."""
-    return tuple(Jump(float(t), names, tuple(float(x) for x in sd)) for t in times)
+    alike = tuple(map(float, sd))
+    return tuple(Jump(t, names, alike) for t in times.tolist())
 
 
 def width(jumps: tuple[Jump, ...]) -> int:
@@ -79,9 +80,10 @@ def cuts_of(jumps: tuple[Jump, ...], t: Series1, layout: Layout) -> Cuts:
     most = width(jumps)
     free = np.full((len(jumps), most), -1, dtype=np.int64)
     weight: Floats = np.zeros((len(jumps), most))
+    precision = {sd: np.array(sd) ** -2.0 for sd in {jump.sd for jump in jumps}}  # few differ
     for k, jump in enumerate(jumps):
         free[k, : len(jump.names)] = [where[name] for name in jump.names]
-        weight[k, : len(jump.names)] = np.array(jump.sd) ** -2.0
+        weight[k, : len(jump.names)] = precision[jump.sd]
     inner = np.searchsorted(t, [jump.t - SAME for jump in jumps])
     nodes = np.concatenate([[0], inner, [len(t) - 1]]).astype(np.int64)
     return Cuts(nodes, free, weight)

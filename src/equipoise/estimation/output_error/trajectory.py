@@ -18,6 +18,7 @@ without a camera, or a lamp or field beside gravity.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -75,7 +76,7 @@ GUIDED = 0.1  # natural sizes of torques, on the way
 COARSE = 0.01  # rad, rad/s, chosen: half a degree
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class Params:
     """Options of the fit."""
 
@@ -109,6 +110,7 @@ def layout_with(
     return layout
 
 
+@lru_cache(maxsize=4)  # by identity, as ``mass_errors``
 def fastest_rate(recording: Recording) -> float:
     """Return the greatest rate (rad/s) measured, roughly; 0 where nothing says."""
     rates: list[Floats] = []
@@ -139,6 +141,7 @@ def held_names(recording: Recording, testbed: Testbed, params: Params) -> tuple[
     return (*first, *params.hold)
 
 
+@lru_cache(maxsize=2)  # what was fitted is smoothed; recording and testbed by identity
 def problem_of(
     recording: Recording, testbed: Testbed, params: Params, torque_anchor: float = ANCHOR
 ) -> Problem:

@@ -20,8 +20,8 @@ import numpy as np
 
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import Body, times
-from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.eigen import eigen
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.pseudo_inertia import FLOOR, exceeds, inertia_of, second_moments_of, six_of
 from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.maths.turns import turned

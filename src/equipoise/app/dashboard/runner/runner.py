@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from equipoise.maths.kernels.compile_events import compiler_notices
 from equipoise.app.console.terminal import COMPILING
 from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
 from equipoise.app.dashboard.runner.benches import Station, let_go
@@ -25,6 +24,7 @@ from equipoise.app.runs.waiting import as_they_come
 from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.hardware.bench.replayed_bench import RecordingEnded
 from equipoise.maths.attitude import tilt
+from equipoise.maths.kernels.compile_events import compiler_notices
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, EquipoiseError
 from equipoise.model.recording import Recording, joined

@@ -1,16 +1,10 @@
 """Centre of mass in the process of automatic balancing (Ivanov 2021 Fig. 14)."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
-
-import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.balancing.story import Story
+from equipoise.app.figures.base.canvas import Axes, Figure
 from equipoise.app.figures.base.com_panels import draw_com, include
 from equipoise.app.figures.base.strokes import panels, with_legend
 from equipoise.app.figures.base.style import BAND, styled
-from equipoise.model.arrays import Series1, Series3, Vector3
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 from equipoise.model.units import UM
@@ -21,22 +15,6 @@ CAPTION = (
     "(circles, bars of two standard deviations), target with its tolerance (shaded), simulated "
     "truth at each step (crosses). Grey: masses travel."
 )
-Marked = tuple[float, Vector3, Vector3]  # s, m, m (one sd)
-
-
-class Story(NamedTuple):
-    """What stands beside the tracker's curve."""
-
-    measurements: Sequence[Marked]
-    target: Vector3  # m
-    tolerance: Vector3  # m
-    truth: tuple[Series1, Series3] | None  # s, m; where the simulated centre really was
-
-    def off_target(self) -> "Story":
-        """Return the same of the distance from the target."""
-        measurements = [(t, com - self.target, sd) for t, com, sd in self.measurements]
-        truth = None if self.truth is None else (self.truth[0], self.truth[1] - self.target)
-        return Story(measurements, np.zeros(3), self.tolerance, truth)
 
 
 @styled

@@ -1,8 +1,8 @@
 """Centre of mass at every estimate of a balancing, beside its target."""
 
-from matplotlib.figure import Figure
-
-from equipoise.app.figures.balancing.balanced_com import Story, mark_story
+from equipoise.app.figures.balancing.balanced_com import mark_story
+from equipoise.app.figures.balancing.story import Story
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.com_panels import include
 from equipoise.app.figures.base.strokes import panels, with_legend
 from equipoise.app.figures.base.style import AXES, styled

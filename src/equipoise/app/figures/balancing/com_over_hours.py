@@ -1,9 +1,8 @@
 """The centre of mass over hours, and how far it goes in how much time."""
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator, StrMethodFormatter
 
+from equipoise.app.figures.base.canvas import Figure, laid_out
 from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
 from equipoise.assessment.metrics.allan import Wander
 from equipoise.model.units import MINUTE, UM
@@ -19,7 +18,9 @@ CAPTION = (
 @styled
 def draw(hours: OverHours, wander: Wander) -> Figure:
     """Return the figure."""
-    figure = Figure(figsize=(WIDE, 5.4), layout="constrained")
+    from matplotlib.ticker import NullLocator, StrMethodFormatter
+
+    figure = laid_out(WIDE, 5.4)
     grid = figure.subplot_mosaic([["x", "allan"], ["y", "allan"], ["z", "allan"]])
     for i, name in enumerate(AXES):
         axes = grid[name]

@@ -1,7 +1,6 @@
 """Where the masses stood in the process of automatic balancing (Ivanov 2021 Fig. 15)."""
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import course, panels
 from equipoise.app.figures.base.style import XYZ, styled
 from equipoise.model.recording import Recording

@@ -1,8 +1,8 @@
 """The torque that acted on the platform, with the noise of its measurement."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import line, panels, with_legend
 from equipoise.app.figures.base.style import AXES, BAND, XYZ, styled
 from equipoise.model.noise_corrected_series import NoiseCorrectedSeries

@@ -1,10 +1,10 @@
 """Centre of mass from recording to recording, while a person balances by hand."""
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
-from equipoise.app.figures.balancing.balanced_com import Story, mark_story
+from equipoise.app.figures.balancing.balanced_com import mark_story
+from equipoise.app.figures.balancing.story import Story
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import panels, with_legend
 from equipoise.app.figures.base.style import AXES, BAND, styled
 from equipoise.model.units import UM
@@ -20,6 +20,8 @@ TICKS = [-1000.0, -100.0, -10.0, 0.0, 10.0, 100.0, 1000.0]  # um
 @styled
 def draw(story: Story) -> Figure:
     """Return the figure; the times of the story are numbers of recordings."""
+    from matplotlib.ticker import MaxNLocator
+
     off = story.off_target()
     figure, column = panels(3, height=1.4)
     for i, axes in enumerate(column):

@@ -1,8 +1,8 @@
 """Gravity's torque over the tilts that count."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Figure, laid_out
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
 from equipoise.assessment.metrics.torque_range import torque_in_range
 from equipoise.model.units import DEG, UN_M
@@ -19,7 +19,7 @@ POINTS = 13
 @styled
 def draw(done: Assessment) -> Figure:
     """Return the figure."""
-    figure = Figure(figsize=(WIDE, 3.0), layout="constrained")
+    figure = laid_out(WIDE, 3.0)
     axes = figure.subplots()
     tilts = np.linspace(0.02, max(done.torque.tilt, done.testbed.tilt_limit), POINTS)
     bed = done.testbed

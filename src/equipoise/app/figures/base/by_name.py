@@ -2,10 +2,7 @@
 
 from collections.abc import Sequence
 
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullLocator
-
+from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.style import WIDE
 
 LINE, AROUND = 0.19, 0.9  # inches, of a name and of what is above and below, chosen
@@ -13,7 +10,7 @@ LINE, AROUND = 0.19, 0.9  # inches, of a name and of what is above and below, ch
 
 def named_axes(names: Sequence[str], xlabel: str) -> tuple[Figure, Axes]:
     """Return a figure with a line for each name, the first one on top."""
-    figure = Figure(figsize=(WIDE, LINE * len(names) + AROUND), layout="constrained")
+    figure = laid_out(WIDE, LINE * len(names) + AROUND)
     axes = figure.subplots()
     axes.set_yticks(range(len(names)), names)
     axes.set_ylim(len(names) - 0.4, -0.6)
@@ -24,6 +21,8 @@ def named_axes(names: Sequence[str], xlabel: str) -> tuple[Figure, Axes]:
 
 def plain_log(axes: Axes) -> None:
     """Scale x logarithmically, with plain numbers at 1, 2, 5, 10 and so on."""
+    from matplotlib.ticker import LogLocator, NullLocator
+
     axes.set_xscale("log")
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.xaxis.set_minor_locator(NullLocator())

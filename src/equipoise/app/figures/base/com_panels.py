@@ -2,8 +2,7 @@
 
 from collections.abc import Sequence
 
-from matplotlib.axes import Axes
-
+from equipoise.app.figures.base.canvas import Axes
 from equipoise.app.figures.base.strokes import around, band, line, mark_travel
 from equipoise.app.figures.base.style import AXES, XYZ
 from equipoise.model.arrays import Series1, Series3

@@ -3,8 +3,7 @@
 import io
 from pathlib import Path
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.style import styled
 from equipoise.io.files.atomic_file import write_whole
 from equipoise.model.errors import InputError

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from equipoise.app.figures.base.canvas import sheet
 from equipoise.hardware.camera.aruco import Picture
 from equipoise.io.files.atomic_file import whole_file
 from equipoise.model.errors import InputError
@@ -18,10 +19,8 @@ def check_paper(path: Path) -> None:
 
 def write_paper(picture: Picture, path: Path) -> None:
     """Write a picture of ``DPI`` so that a printer at 100 % gives it in its true size."""
-    from matplotlib.figure import Figure
-
     height, width = picture.shape
-    figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI)
+    figure = sheet(width / DPI, height / DPI, DPI)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_axis_off()
     axes.imshow(picture, cmap="gray", vmin=0, vmax=255, interpolation="none", aspect="auto")

@@ -3,9 +3,8 @@
 from collections.abc import Iterable
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.style import BAND, WIDE
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.recording import Recording, Samples, runs
@@ -24,7 +23,7 @@ def panels(rows: int, height: float) -> tuple[Figure, list[Axes]]:
 
 def panel_grid(rows: int, columns: int, height: float) -> tuple[Figure, list[list[Axes]]]:
     """Return a figure of rows of panels that share their time axis."""
-    figure = Figure(figsize=(WIDE, height * rows + 0.7), layout="constrained")
+    figure = laid_out(WIDE, height * rows + 0.7)
     grid = figure.subplots(rows, columns, sharex=True, squeeze=False)
     for axes in grid[-1]:
         axes.set_xlabel("time, s")

@@ -7,8 +7,6 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any, TypeVar
 
-import matplotlib as mpl
-
 # Okabe and Ito's colours, which colour-blind readers can distinguish.
 BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#777777"
 SKY, AMBER = "#56B4E9", "#E69F00"
@@ -53,6 +51,8 @@ def styled(draw: Drawing) -> Drawing:
 
     @wraps(draw)
     def in_style(*arguments: Any, **named: Any) -> Any:
+        import matplotlib as mpl
+
         with mpl.rc_context(STYLE):
             return draw(*arguments, **named)
 

@@ -1,8 +1,8 @@
 """Measured attitude and the model's, before and after estimation (Ivanov 2021 Fig. 6)."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import line, mark_travel, panels, rings, with_legend
 from equipoise.app.figures.base.style import BLUE, GREEN, ORANGE, PURPLE, styled
 from equipoise.maths.attitude import continuous

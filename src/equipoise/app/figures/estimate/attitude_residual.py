@@ -1,8 +1,8 @@
 """What the fitted model leaves of the measured attitude (Ivanov 2021 Fig. 7, as angles)."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import around, dots, mark_travel, panels
 from equipoise.app.figures.base.style import AXES, BAND, GREY, XYZ, styled
 from equipoise.maths.attitude import difference

@@ -1,7 +1,6 @@
 """Centre of mass along a record, estimated by a recursive method."""
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.com_panels import draw_com
 from equipoise.app.figures.base.strokes import panels, with_legend
 from equipoise.app.figures.base.style import styled

@@ -6,8 +6,8 @@
 """
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Figure, sheet
 from equipoise.app.figures.base.style import AXES, BLUE, GREY, ORANGE, styled
 from equipoise.model.arrays import Floats
 from equipoise.model.mass_properties import MassProperties, second_moments
@@ -39,7 +39,7 @@ def surface(body: MassProperties) -> Floats:
 @styled
 def draw(body: MassProperties) -> Figure:
     """Return the figure; the body must be physically possible."""
-    figure = Figure(figsize=(SIZE, SIZE))
+    figure = sheet(SIZE, SIZE)
     axes = figure.add_subplot(projection="3d")
     axes.plot_wireframe(*(surface(body) / MM), color=BLUE, linewidth=0.5, alpha=0.6)
     axes.plot(*(body.com[:, None] / MM), "o", color=ORANGE, label="centre of mass")

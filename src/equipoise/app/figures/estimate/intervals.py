@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.style import BLUE, WIDE, styled
 from equipoise.app.text.numbers import unit_for
 from equipoise.model.estimate import COM, NORMAL_95, Parameter
@@ -22,7 +21,7 @@ def draw(parameters: Sequence[Parameter]) -> Figure:
     """Return the figure: one panel for the centre of mass, one for the inertia."""
     com = [p for p in parameters if p.name in COM]
     groups = [group for group in (com, [p for p in parameters if p not in com]) if group]
-    figure = Figure(figsize=(WIDE, HIGH), layout="constrained")
+    figure = laid_out(WIDE, HIGH)
     for axes, group in zip(figure.subplots(1, len(groups), squeeze=False)[0], groups, strict=True):
         _panel(axes, group)
     return figure

@@ -1,7 +1,6 @@
 """Centre of mass across a move, fed to the tracker and withheld (Ivanov 2021 Fig. 13)."""
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.com_panels import draw_com, draw_truth, include
 from equipoise.app.figures.base.strokes import panel_grid, with_legend
 from equipoise.app.figures.base.style import styled

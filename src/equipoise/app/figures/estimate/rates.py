@@ -1,7 +1,6 @@
 """Angular velocity along the fitted trajectory (Ivanov 2021 Fig. 8)."""
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import dots, line, mark_travel, panels, with_legend
 from equipoise.app.figures.base.style import AXES, XYZ, styled
 from equipoise.model.predicted_motion import PredictedMotion

@@ -3,9 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.strokes import with_legend
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
 from equipoise.app.text.numbers import unit_for
@@ -41,7 +39,7 @@ def draw(parameters: Mapping[str, Boxed], label: str = "testbed") -> Figure:
     """Return the figure: a panel a parameter, each to its own scale; what the dashed line is."""
     rows = [[name for name in row if name in parameters] for row in ROWS]
     rows = [row for row in rows if row]
-    figure = Figure(figsize=(WIDE, HIGH * len(rows) + 0.4), layout="constrained")
+    figure = laid_out(WIDE, HIGH * len(rows) + 0.4)
     grid = figure.subplots(len(rows), len(COM), squeeze=False)
     for every, row in zip(grid, rows, strict=True):
         for axes in every[len(row) :]:

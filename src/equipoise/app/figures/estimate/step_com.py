@@ -3,9 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
 from equipoise.model.arrays import Vector3
 from equipoise.model.units import UM
@@ -38,7 +36,7 @@ def caption(at_home: bool, wanted: Wanted | None) -> str:
 @styled
 def draw(marks: Sequence[Mark], wanted: Wanted | None) -> Figure:
     """Return the figure: a row for each mark, the first on top."""
-    figure = Figure(figsize=(WIDE, 0.75 + 0.28 * len(marks)), layout="constrained")
+    figure = laid_out(WIDE, 0.75 + 0.28 * len(marks))
     row = figure.subplots(1, 3, sharey=True)
     for i, axes in enumerate(row):
         if wanted is not None:

@@ -1,8 +1,8 @@
 """Centre of mass estimated by the tracker, masses at rest (Ivanov 2021 Fig. 12)."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.com_panels import draw_com, draw_truth
 from equipoise.app.figures.base.strokes import panels, with_legend
 from equipoise.app.figures.base.style import styled

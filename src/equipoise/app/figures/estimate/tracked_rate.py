@@ -1,7 +1,6 @@
 """Angular velocity estimated by the tracker (Ivanov 2021 Fig. 11)."""
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import band, line, mark_travel, panels, with_legend
 from equipoise.app.figures.base.style import AXES, XYZ, styled
 from equipoise.model.estimate import Course

@@ -4,9 +4,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Axes, Figure
 from equipoise.app.figures.base.strokes import line, panel_grid, with_legend
 from equipoise.app.figures.base.style import XYZ, styled
 from equipoise.model.arrays import Floats, Series, Series1

@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import line, panels, with_legend
 from equipoise.app.figures.base.style import BLUE, GREEN, GREY, ORANGE, PURPLE, styled
 from equipoise.model.arrays import Series, Series1

@@ -1,7 +1,6 @@
 """The recording of one measurement, small enough to stand below its step in a report."""
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import panels
 from equipoise.app.figures.base.style import styled
 from equipoise.app.figures.recording.record_panels import panels_of_motion

@@ -2,8 +2,7 @@
 
 from collections.abc import Sequence
 
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Figure, sheet
 from equipoise.app.figures.base.style import GREY, styled
 from equipoise.app.figures.recording.record_marks import (
     LINE,
@@ -32,7 +31,7 @@ PANEL = 0.85  # inches: panels are never lower than this; then the list is cut
 @styled
 def draw(recording: Recording, found: Sequence[Finding] = (), up: Vector3 | None = None) -> Figure:
     """Return the page; without ``up`` (a body axis) the most upright one is taken."""
-    figure = Figure(figsize=PAGE)
+    figure = sheet(*PAGE)
     panels, span = panels_of(recording, up), recording.span
     marked = numbered(found, span)
     lines = listed(found, marked)

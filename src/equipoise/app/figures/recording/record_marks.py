@@ -3,9 +3,7 @@
 import textwrap
 from collections.abc import Sequence
 
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Axes, Figure
 from equipoise.app.figures.base.style import GREY, ORANGE
 from equipoise.app.text.escaping import for_figure
 from equipoise.model.finding import Finding

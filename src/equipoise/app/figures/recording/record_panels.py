@@ -3,8 +3,8 @@
 from collections.abc import Callable
 
 import numpy as np
-from matplotlib.axes import Axes
 
+from equipoise.app.figures.base.canvas import Axes
 from equipoise.app.figures.base.strokes import course, dots
 from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ
 from equipoise.app.text.escaping import for_figure

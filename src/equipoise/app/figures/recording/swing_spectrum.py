@@ -1,8 +1,8 @@
 """The amplitude spectrum of roll and pitch, with the swings that were found in it."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Figure, laid_out
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
 from equipoise.assessment.metrics.swing_modes import swing_rates
 from equipoise.model.units import DEG
@@ -20,7 +20,7 @@ def draw(done: Assessment) -> Figure:
     """Return the figure."""
     observed = done.metrics.spectrum
     assert observed is not None
-    figure = Figure(figsize=(WIDE, 2.8), layout="constrained")
+    figure = laid_out(WIDE, 2.8)
     axes = figure.subplots()
     size = float(np.linalg.norm(done.com))
     down = done.com / max(size, 1e-12)

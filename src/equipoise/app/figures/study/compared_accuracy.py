@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.by_name import named_axes, plain_log
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.strokes import with_legend
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, styled
 

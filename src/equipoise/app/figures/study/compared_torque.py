@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from matplotlib.figure import Figure
-
 from equipoise.app.figures.base.by_name import named_axes, plain_log
+from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.style import BLUE, GREY, styled
 
 CAPTION = (

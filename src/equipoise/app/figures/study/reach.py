@@ -1,10 +1,8 @@
 """What the masses of a testbed can reach, and what has to be corrected, in three views."""
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Ellipse
 
+from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.strokes import with_legend
 from equipoise.app.figures.base.style import AXES, BLUE, GREEN, GREY, ORANGE, WIDE, styled
 from equipoise.model.units import UM
@@ -23,7 +21,7 @@ AIR = 1.08  # of what is shown, chosen: room beside it
 @styled
 def draw(reach: Reach, case: Case) -> Figure:
     """Return the figure: one panel for each plane of body axes, all of one scale."""
-    figure = Figure(figsize=(WIDE, 2.6), layout="constrained")
+    figure = laid_out(WIDE, 2.6)
     every: list[Axes] = list(figure.subplots(1, 3))
     half = AIR * extent(reach, case)
     for axes, plane in zip(every, PLANES, strict=True):
@@ -44,6 +42,8 @@ def extent(reach: Reach, case: Case) -> float:
 
 def draw_reach(axes: Axes, reach: Reach, plane: tuple[int, int]) -> None:
     """Draw the outline of what can be reached, and the largest circle about home within it."""
+    from matplotlib.patches import Circle
+
     corners = outline(reach, plane) / UM
     closed = np.vstack([corners, corners[:1]])
     axes.fill(*closed.T, color=BLUE, alpha=0.15, linewidth=0)
@@ -57,6 +57,8 @@ def draw_reach(axes: Axes, reach: Reach, plane: tuple[int, int]) -> None:
 
 def draw_needed(axes: Axes, case: Case, plane: tuple[int, int]) -> None:
     """Draw the shifts that bring platforms, as stated, to the target."""
+    from matplotlib.patches import Ellipse
+
     across = list(plane)
     x, y = (case.target - case.testbed.body.com)[across] / UM
     sd = case.testbed.com_sd[across] / UM

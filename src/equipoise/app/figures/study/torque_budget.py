@@ -2,9 +2,7 @@
 
 from collections.abc import Sequence
 
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-
+from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
 from equipoise.model.units import UN_M
 from equipoise.planning.sizing.budget import Budget
@@ -24,7 +22,7 @@ def draw(budget: Budget, better: Sequence[Bettered], required: float | None) -> 
     lines.append(("together", budget.torque, GREY))
     changes = [(change.name, change.torque, ORANGE) for change in better]
     rows = len(lines) + len(changes)
-    figure = Figure(figsize=(WIDE, ROW * rows + 1.2), layout="constrained")
+    figure = laid_out(WIDE, ROW * rows + 1.2)
     heights = [len(lines), max(len(changes), 1)]
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=heights)
     bars(upper, lines, "each cause by itself")

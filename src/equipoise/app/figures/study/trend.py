@@ -5,10 +5,8 @@ from datetime import datetime
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
-from matplotlib.figure import Figure
 
+from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.style import BAND, GREY, WIDE, XYZ, styled
 from equipoise.app.text.escaping import for_figure
 from equipoise.model.arrays import Series, Series1
@@ -37,8 +35,10 @@ class Trend(NamedTuple):
 @styled
 def draw(trend: Trend) -> Figure:
     """Return the figure."""
+    from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
+
     warm = bool(np.isfinite(trend.temperature).sum() > 1)
-    figure = Figure(figsize=(WIDE * (1.35 if warm else 1.0), 8.6), layout="constrained")
+    figure = laid_out(WIDE * (1.35 if warm else 1.0), 8.6)
     ratios = [2.2, 1.0] if warm else [1.0]
     grid = figure.subplots(6, len(ratios), squeeze=False, sharey="row", sharex="col",
                            width_ratios=ratios)  # fmt: skip
