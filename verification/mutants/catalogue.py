@@ -66,9 +66,10 @@ MATHS = _of(
     ("gaussian_length.py", "SURE = 0.975", "SURE = 0.9", "maths/test_gaussian_length.py"),
     ("gaussian_length.py", "sure_distance(z, g + curvature * at, curvature)",
      "sure_distance(z, g - curvature * at, curvature)", "maths/test_gaussian_length.py"),
-    ("kernel_cache.py", "sha256(content(path)).digest()", 'b""', "maths/kernels/test_kernel_cache.py"),
-    ("compiled.py", "ours = context.env_manager", "ours = not context.env_manager",
-     "maths/test_interrupted_kernels.py"),
+    ("kernel_cache.py", "sha256(content(path)).digest()", 'b""',
+     "maths/kernels/test_kernel_cache.py"),
+    ("returned_in_c.py", "ours = context.env_manager", "ours = not context.env_manager",
+     "maths/kernels/test_interrupted_kernels.py"),
 )  # fmt: skip
 
 ACTUATORS = _of(

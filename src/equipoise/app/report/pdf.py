@@ -46,9 +46,9 @@ def png(drawing: bytes) -> bytes:
 def _set(sources: Mapping[str, bytes], **options: Any) -> bytes:
     import typst
 
-    inside: Any = sources  # its annotations know of one file only
+    compiled: Any = typst.compile  # its annotations know of one file only
     try:
-        return typst.compile(inside, **options)
+        return compiled(sources, **options)
     except typst.TypstError as error:
         wanted = "blocks and figures that it can set"
         raise InputError("the report as PDF", f"typst's '{error}'", wanted) from error

@@ -28,6 +28,8 @@ MERGED: dict[str, Any] = {**LINKED, "forceinline": True, "_nrt": False}
 class Waiting(registry.CPUDispatcher):
     """A kernel that is loaded where another process has compiled it."""
 
+    _cache: Any
+
     def compile(self, sig: Any) -> Any:
         """Return the address of its machine code."""
         with alone(Path(self._cache.cache_path), self.py_func.__qualname__):

@@ -13,9 +13,15 @@ from typing import Any
 from numba.core import compiler, registry, types
 from numba.core.codegen import JITCodeLibrary
 
+plain: Callable[[Any], Any] = types.unliteral  # pyright: ignore # takes any type
+
 
 class LinkedLibrary(JITCodeLibrary):
     """Code that other libraries link, and nobody runs."""
+
+    _linking_libraries: Any
+    _reload_init: Any
+    _final_module: Any
 
     def finalize(self) -> None:
         """Link what this code calls; optimise nothing."""
@@ -51,8 +57,8 @@ class Linked(registry.CPUDispatcher):
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Compile for types: a constant is an argument like another, not a function of its own."""
-        plain = {name: types.unliteral(typ) for name, typ in kws.items()}
-        return super().get_call_template(tuple(map(types.unliteral, args)), plain)
+        usual: Any = super().get_call_template
+        return usual(tuple(map(plain, args)), {name: plain(typ) for name, typ in kws.items()})
 
     def add_overload(self, cres: Any) -> None:
         """Know a compiled function by a name of its own: it has no address that would be one."""

@@ -17,12 +17,12 @@ from numba.core.registry import cpu_target
 
 READY = Path(__file__).resolve().parent / "ready"
 INDEX = ".nbi"
-# System V psABI for x86-64, "micro-architecture levels": every desktop processor since 2013 to 2015.
+# System V psABI for x86-64, "micro-architecture levels": desktop processors since 2013 to 2015.
 FAMILIES = {"x86-64-v3": ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "xsave")}
 
 
 def take_ready(folder: Path, stamp: str, ready: Path = READY) -> None:
-    """Copy into a folder of kernels those of its sources that came along and run on this computer."""
+    """Copy into a folder of kernels those of its sources that came along and run here."""
     for index in (ready / folder.name).glob(f"*{INDEX}"):
         ours: Any = IndexDataCacheFile(str(index.parent), index.stem, stamp)
         taken = usable(ours._load_index())
@@ -35,7 +35,7 @@ def take_ready(folder: Path, stamp: str, ready: Path = READY) -> None:
 
 def usable(index: Mapping[Any, str]) -> dict[Any, str]:
     """Return the entries of an index for this computer, under the name of its own processor."""
-    here = cpu_target.target_context.codegen().magic_tuple()
+    here = this_computer()
     return {
         (signature, here, code): name
         for (signature, there, code), name in index.items()
@@ -46,7 +46,12 @@ def usable(index: Mapping[Any, str]) -> dict[Any, str]:
 def _is_of(there: tuple[str, str, str]) -> bool:
     """Say whether this computer runs what was compiled for a triple, a family and no more."""
     triple, family, more = there
-    has: Mapping[str, bool] = binding.get_host_cpu_features()
-    needed = FAMILIES.get(family)
-    alike = triple == cpu_target.target_context.codegen().magic_tuple()[0]
+    needed, alike = FAMILIES.get(family), triple == this_computer()[0]
+    has: dict[str, bool] = dict(binding.get_host_cpu_features())  # pyright: ignore # untyped
     return needed is not None and alike and not more and all(has.get(each) for each in needed)
+
+
+def this_computer() -> tuple[str, str, str]:
+    """Return what the compiler compiles for: a triple, a processor, what that has and has not."""
+    context: Any = cpu_target.target_context
+    return context.codegen().magic_tuple()

@@ -57,7 +57,8 @@ def backward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> No
             absorb_jump(cuts, pieces, k, 0.0, chain)
             m = count_free(cuts.free[k])
             if m:
-                copy_rows(np.linalg.inv(chain.crossed[:m, :m].copy()), out.firm[k])
+                inverse = np.linalg.inv(chain.crossed[:m, :m].copy())
+                copy_rows(inverse, out.firm[k])  # pyright: ignore # of doubles
             carry_back(pieces.onward[k], chain)
             carry(pieces.onward[k], chain.gain[k], m)
         add_stretch(pieces, k, chain)
@@ -97,6 +98,21 @@ def onto_both(F: Floats, changed: Ints, count: int, C: Floats, rows: Floats, out
             out[a, changed[i]] = rows[i, a]
 
 
+@part
+def congruent(G: Floats, C: Floats, rows: Floats, m: int, out: Floats) -> None:
+    """Write G C G^T, of the first m rows of G; ``rows`` is worked in."""
+    n = C.shape[0]
+    for i in range(m):
+        rows[i] = 0.0
+        for j in range(n):
+            add_scaled(G[i, j], C[j], rows[i], n)
+        for j in range(m):
+            total = 0.0
+            for c in range(n):
+                total += rows[i, c] * G[j, c]
+            out[i, j] = total
+
+
 @kernel
 def forward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: Smoothed) -> None:
     """Write the covariances, ``first`` being that of the first stretch."""
@@ -121,15 +137,10 @@ def forward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: S
         carried(F, changed, count, out.onward, rows, whole)
         copy_rows(whole, out.onward)
         onto_both(F, changed, count, before, rows, out.covariance[k + 1])
+        congruent(G, before, rows, m, out.jump_covariance[k])
         for i in range(m):
-            rows[i] = 0.0
-            for j in range(n):
-                add_scaled(G[i, j], before[j], rows[i], n)
             for j in range(m):
-                total = inverse[k, i, j]
-                for c in range(n):
-                    total += rows[i, c] * G[j, c]
-                out.jump_covariance[k, i, j] = total
+                out.jump_covariance[k, i, j] += inverse[k, i, j]
                 out.covariance[k + 1, cuts.free[k, i], cuts.free[k, j]] += inverse[k, i, j]
 
 
