@@ -10,13 +10,14 @@ LINTED := src tests $(wildcard benchmarks verification)
 UV := $(shell command -v uv 2>/dev/null)
 VENDOR := src/equipoise/app/dashboard/static/vendor
 VENDORED := $(VENDOR)/uPlot.min.css
+KERNELS := src/equipoise/maths/kernels/ready
 
 # Every Python that numba has wheels for; the first that answers is taken.
 PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
 SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench verify mutants lint format rooms pins clean
+.PHONY: help demo test bench verify mutants lint format rooms wheel pins clean
 .DELETE_ON_ERROR:
 
 help:  ## list the targets
@@ -58,9 +59,16 @@ format: $(TEST)  ## put the code in the house format
 rooms: $(TEST)  ## draw the picture of the rooms in docs/architecture.md
 	@$(BIN)/python -m tests.support.rooms
 
+# Kernels for this Python on every x86-64 processor since 2015 or so; others compile their own.
+wheel: $(TEST) $(VENDORED)  ## build a wheel in dist, with kernels compiled ahead
+	@rm -rf build/kernels $(KERNELS)
+	@NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES= NUMBA_CACHE_DIR=build/kernels $(BIN)/equipoise precompile
+	@cp -r build/kernels/equipoise-kernels $(KERNELS)
+	@$(BIN)/python -m hatchling build --target wheel
+
 clean:  ## remove the environment, caches and outputs
 	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis .benchmarks
-	rm -rf dist build equipoise-out web/node_modules $(VENDOR)
+	rm -rf dist build equipoise-out web/node_modules $(VENDOR) $(KERNELS)
 	find src tests -name __pycache__ -prune -exec rm -rf {} +
 
 # --- The environment -------------------------------------------------------------------------

@@ -34,6 +34,7 @@ COMMANDS = (
     "dashboard",
     "report",
     "logbook",
+    "precompile",
 )
 HEAVY = ("numpy", "scipy", "numba", "matplotlib", "pydantic", "pyarrow", "jaxtyping", "cv2")
 HELP = """

@@ -1,0 +1,54 @@
+"""Commands load what they use: libraries that take long to import come when they are needed."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SOURCES = sorted(Path(__file__).parents[2].joinpath("src").rglob("*.py"))
+SLOW = ("scipy", "numba", "matplotlib", "pyarrow", "pandas")
+COMPILING = {"compiler", "linked", "returned_in_c", "kernel_cache", "ready_kernels"}
+LOADED = """
+import sys
+from equipoise.app.cli import run
+code = run(sys.argv[1:])
+print(code, *sorted({name.partition(".")[0] for name in sys.modules}), sep="\\n")
+"""
+
+
+def loaded(*words):
+    """Return the exit code of a command, and the packages that it has loaded."""
+    program = [sys.executable, "-c", LOADED, *map(str, words)]
+    ended = subprocess.run(program, capture_output=True, encoding="utf-8", check=True)
+    after = ended.stdout.rpartition("\n0\n")
+    return after[1].strip(), set(after[2].split())
+
+
+def heads(source):
+    """Yield what a module imports when it is imported itself."""
+    for node in ast.parse(source.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.Import):
+            yield from (name.name for name in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            yield node.module
+
+
+def test_no_module_loads_a_slow_library_at_its_head():
+    """SciPy alone loads none of its packages before one is used."""
+    found = {
+        source.stem: names
+        for source in SOURCES
+        if (names := [n for n in heads(source) if n != "scipy" and n.partition(".")[0] in SLOW])
+    }
+    assert found.keys() <= COMPILING
+
+
+@pytest.mark.parametrize("command", ["identify", "inspect", "assess"])
+def test_a_command_that_draws_nothing_loads_no_matplotlib(command, record_file, monkeypatch):
+    monkeypatch.setenv("EQUIPOISE_RUNS", "")
+    code, packages = loaded(command, record_file, "--testbed", "sputnix")
+    assert code == "0"
+    assert "numpy" in packages
+    assert "matplotlib" not in packages
