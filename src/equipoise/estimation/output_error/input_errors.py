@@ -81,9 +81,12 @@ class InputShift(NamedTuple):
     varied: Fitted
 
 
-def scaled(channel: Samples | None, share: float) -> Samples | None:
-    """Return a channel with its values a share larger."""
-    return None if channel is None else replace(channel, values=channel.values * (1 + share))
+def with_scaled(recording: Recording, name: str, share: float) -> Recording:
+    """Return the recording with the values of a channel a share larger, if it has that channel."""
+    channel: Samples | None = getattr(recording, name)
+    if channel is None:
+        return recording
+    return replace(recording, **{name: replace(channel, values=channel.values * (1 + share))})
 
 
 def stretched(channel: Samples | None, start: float, share: float) -> Samples | None:
@@ -120,12 +123,8 @@ def platform_varied(recording: Recording, testbed: Testbed, part: float) -> Iter
         rest = replace(testbed, masses=(*masses[:i], other, *masses[i + 1 :]))
         yield Varied(weight_of(mass), mass.mass_sd, recording, rest)
     if recording.devices is None:
-        sd = testbed.momentum_sd
-        more = scaled(recording.momentum, part * sd)
-        yield Varied("momentum", sd, replace(recording, momentum=more), testbed)
-        sd = testbed.torque_sd
-        more = scaled(recording.torque, part * sd)
-        yield Varied("torque", sd, replace(recording, torque=more), testbed)
+        for name, sd in (("momentum", testbed.momentum_sd), ("torque", testbed.torque_sd)):
+            yield Varied(name, sd, with_scaled(recording, name, part * sd), testbed)
 
 
 def places_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
@@ -225,6 +224,10 @@ def input_effects(fitted: Fitted) -> list[InputEffect]:
     values = physical(fitted.point, problem.mass, layout)
     found: list[InputEffect] = []
     for more, less in zip(variations(problem, STEP), variations(problem, -STEP), strict=True):
+        if more.recording is problem.recording and more.testbed is problem.testbed:
+            none = np.zeros(layout.size)  # the record has nothing of it
+            found.append(InputEffect(more.name, more.axis, none, none, fitted))
+            continue
         (above, at), (below, _) = descent_with(fitted, more), descent_with(fitted, less)
         direct = (physical(fitted.point, at.problem.mass, layout) - values) / STEP
         found.append(InputEffect(more.name, more.axis, (above - below) / (2 * STEP), direct, at))
