@@ -39,7 +39,7 @@ def of(runs, equipoise, monkeypatch):
 
 
 def folders(runs, kind):
-    return sorted(path for path in runs.iterdir() if kind in path.name)
+    return sorted(path for path in runs.glob("*/*") if kind in path.name)
 
 
 def test_each_run_has_a_folder_of_its_own(runs):

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from equipoise.io.documents import run_file
-from equipoise.io.documents.logbook import INDEX, MIGRATIONS, open_logbook
+from equipoise.io.documents.logbook import INDEX, Choice, open_logbook
+from equipoise.io.documents.logbook_schema import MIGRATIONS
 from equipoise.io.documents.run_file import read_run
 from equipoise.model.errors import InputError
 from equipoise.model.logged_run import RUN
@@ -63,7 +64,7 @@ def test_it_knows_what_came_changed_or_went_since(tmp_path):
             ("three", "passed"),
             ("one", "failed"),
         ]
-        assert [r.name for r in book.runs("outcome = ?", ["failed"])] == ["one"]
+        assert [r.name for r in book.runs(Choice("outcome = ?", ["failed"]))] == ["one"]
         assert len(book.numbers("one", "home")) == 2
 
 
@@ -147,11 +148,11 @@ def test_a_newer_index_is_refused(tmp_path):
 
 
 def test_a_migration_that_fails_changes_nothing(tmp_path, monkeypatch):
-    from equipoise.io.documents import logbook
+    from equipoise.io.documents import logbook_schema
 
     listed(tmp_path)
     broken = (*MIGRATIONS, "CREATE TABLE more (x TEXT); NOT SQL;")
-    monkeypatch.setattr(logbook, "MIGRATIONS", broken)
+    monkeypatch.setattr(logbook_schema, "MIGRATIONS", broken)
     with pytest.raises(InputError, match="syntax error"), open_logbook(tmp_path):
         pass
     monkeypatch.undo()

@@ -1,6 +1,5 @@
 """Runs of a logbook as a table: a line a run, SI units in the names of columns."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -29,10 +28,10 @@ def write_export(book: Logbook, choice: Choice, path: Path) -> None:
         write_whole(path, csv_lines(list(columns), zip(*cells, strict=True)))
 
 
-def table(book: Logbook, choice: Choice) -> dict[str, Sequence[Any]]:
+def table(book: Logbook, choice: Choice) -> dict[str, Any]:
     """Return the columns; None, or masked, for what a run has not."""
-    found = book.table((*TEXTS, TEMPERATURE), PARTS, choice)
-    columns = {name: found.columns[name] for name in TEXTS}
+    found = book.table((*TEXTS, TEMPERATURE), list(PARTS), choice)
+    columns: dict[str, Any] = {name: found.columns[name] for name in TEXTS}
     columns["temperature_degC"] = found.columns[TEMPERATURE]
     for part, (prefix, names) in PARTS.items():
         numbers = found.numbers(part, names)

@@ -47,10 +47,12 @@ def _trend(
     platform, configuration, made_at, warmth = (
         [found.columns[name][k] for k in rows] for name in COLUMNS
     )
+    values, sd = (each[rows] for each in numbers)
     return trend.Trend(
         platform[0],
         [datetime.fromisoformat(each).astimezone().replace(tzinfo=None) for each in made_at],
-        *(each[rows] for each in numbers),
+        values,
+        sd,
         [letter[key] for key in zip(platform, configuration, strict=True)],
         np.array([np.nan if each is None else each for each in warmth]),
     )

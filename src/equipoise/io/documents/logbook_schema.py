@@ -1,4 +1,4 @@
-"""The tables of a logbook's index: one script for each version, and the way from one to the next."""
+"""The tables of a logbook's index: a script for each version, and the way from one to the next."""
 
 import sqlite3
 from collections.abc import Generator
@@ -89,8 +89,9 @@ def migrate(index: sqlite3.Connection, source: str) -> None:
     """
     if _version(index) == len(MIGRATIONS):
         return
-    index.create_aggregate("packed", 2, PackedOfOld)
-    index.create_aggregate("form", 3, FormOfOld)
+    # The declared types know sums of whole numbers alone.
+    index.create_aggregate("packed", 2, PackedOfOld)  # pyright: ignore[reportArgumentType]
+    index.create_aggregate("form", 3, FormOfOld)  # pyright: ignore[reportArgumentType]
     with whole(index):  # of two programs one waits, and finds the work done
         version = _version(index)
         if version > len(MIGRATIONS):

@@ -204,12 +204,13 @@ class Update:
             index.execute("INSERT OR IGNORE INTO configurations VALUES (?, ?, ?)", known)
 
 
-def _id(index: sqlite3.Connection, table: str, **key: str) -> int:
+def _id(index: sqlite3.Connection, table: str, **key: str) -> int | None:
     """Return the number of a row, which is made if need be."""
     query = f"SELECT id FROM {table} WHERE {' AND '.join(f'{name} = ?' for name in key)}"
-    found = _first(index, query, *key.values())
+    found: int | None = _first(index, query, *key.values())
     if found is None:
-        found = index.execute(_insertion(table, tuple(key)), tuple(key.values())).lastrowid
+        index.execute(_insertion(table, tuple(key)), tuple(key.values()))
+        found = _first(index, query, *key.values())
     return found
 
 

@@ -30,6 +30,6 @@ def stamps_within(folder: Path) -> dict[str, int | None]:
     """
     top = str(folder)
     with os.scandir(top) as entries:
-        names = [e.name for e in entries
-                 if not e.name.startswith(".") and not e.is_file(follow_symlinks=False)]  # fmt: skip
-    return {name: stamp_of(f"{top}/{name}/{RUN}") for name in sorted(names)}
+        names = sorted(e.name for e in entries if not e.is_file(follow_symlinks=False))
+    runs = (name for name in names if not name.startswith("."))
+    return {name: stamp_of(f"{top}/{name}/{RUN}") for name in runs}

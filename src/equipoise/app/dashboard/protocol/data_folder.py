@@ -13,7 +13,7 @@ from equipoise.model.errors import InputError
 
 RECORDINGS = "recordings"
 SUFFIX = ".mcap"
-OFFERED = 200  # runs with a recording, chosen: more than anybody reads through
+LAST = 1000  # runs whose recordings are offered; chosen: some milliseconds
 SHOWN = 100  # characters of a name that was not found; chosen
 
 
@@ -46,8 +46,8 @@ def recordings(folder: Path) -> list[str]:
 
     Names of runs begin with their time, so that the last by name are found without all others.
     """
-    kept = (path for path in _last_runs(folder) if path.is_file())
-    found = [*folder.glob(f"{RECORDINGS}/*{SUFFIX}"), *islice(kept, OFFERED)]
+    kept = (path for path in islice(_last_runs(folder), LAST) if path.is_file())
+    found = [*folder.glob(f"{RECORDINGS}/*{SUFFIX}"), *kept]
     ordered = sorted(found, key=lambda path: path.stat().st_mtime, reverse=True)
     return [path.relative_to(folder).as_posix() for path in ordered]
 
