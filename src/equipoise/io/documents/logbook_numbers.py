@@ -58,7 +58,7 @@ def arrays(rows: Sequence[tuple[str | None, bytes | None]], names: Sequence[str]
             by_form.setdefault(form, []).append(k)
     for form, places in by_form.items():
         cells = b"".join(rows[k][1] or b"" for k in places)
-        _fill(found, np.array(places), names, json.loads(form), cells)
+        _fill(found, np.array(places), names, [tuple(each) for each in json.loads(form)], cells)
     return found
 
 
