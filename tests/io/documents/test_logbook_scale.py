@@ -134,6 +134,19 @@ def test_a_run_that_goes_and_a_month_that_goes(months):
     assert sorted(listed(months)) == ["2026-02/b", "flat"]
 
 
+@pytest.mark.skipif(os.name == "nt", reason="links take rights there")
+def test_a_month_that_cannot_be_listed_is_reported_and_stays(months):
+    """Here a link to itself; a drive that is gone for a moment is another."""
+    (months / "2026-02").rename(months / "else")
+    (months / "2026-02").symlink_to("2026-02")
+    for _ in range(2):
+        with open_logbook(months) as book:
+            assert len(book.runs()) == 3
+            assert "2026-02" in book.unread[0]
+    (months / "2026-02").unlink()
+    assert len(listed(months)) == 2
+
+
 def test_a_run_that_is_copied_piece_by_piece_is_noticed_when_it_is_whole(months):
     """The month's time does not change when the last file comes."""
     folder = months / "2026-01" / "slow"

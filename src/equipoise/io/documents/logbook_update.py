@@ -86,8 +86,11 @@ class Update:
             else:
                 known = self._known(shard)  # before the folder is listed: others write here too
                 found = stamps_within(place)
-        except OSError:
+        except (FileNotFoundError, NotADirectoryError):
             self._drop(shard)
+            return
+        except OSError as error:  # what is known of its runs still stands
+            self.unread.append(f"{place}: {error.strerror}")
             return
         fresh = [(n, s) for n, s in found.items() if s is not None and known.get(n) != s]
         waits = {n for n, s in found.items() if s is None} | self._enter(shard, fresh)

@@ -26,7 +26,7 @@ def stamp_of(path: str) -> int | None:
 def stamps_within(folder: Path) -> dict[str, int | None]:
     """Return the folders in one, and of each when its ``run.json`` was written; None: it has none.
 
-    Raises OSError if the folder is gone.
+    Raises OSError if the folder is gone or may not be listed.
     """
     top = str(folder)
     with os.scandir(top) as entries:
