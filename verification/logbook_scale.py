@@ -1,4 +1,4 @@
-"""A laboratory's logbook after ten years: what it takes to open, to list and to draw a million runs.
+"""A laboratory's logbook after ten years: what it takes to open, list and draw a million runs.
 
 Processor seconds of this process, start of Python and loading of libraries left out.
 """

@@ -28,6 +28,11 @@ def made(k: int, count: int) -> datetime:
     return FIRST + timedelta(seconds=int(seconds))
 
 
+def build(k: int, count: int) -> int:
+    """Return how often the platform of the k-th run had been rebuilt."""
+    return k * REBUILT // count
+
+
 def run_of(k: int, count: int) -> LoggedRun:
     """Return the k-th of so many runs: each third one a balancing, numbers about a place."""
     time, platform = made(k, count), PLATFORMS[k % len(PLATFORMS)]
@@ -46,7 +51,7 @@ def run_of(k: int, count: int) -> LoggedRun:
         kind="balance" if balances else "identify",
         made_at=time.isoformat(),
         platform=platform,
-        configuration=f"{k * REBUILT // count:032x}{k % len(PLATFORMS):032x}",
+        configuration=f"{build(k, count):032x}{k % len(PLATFORMS):032x}",
         method=LAW if balances else METHODS[k % len(METHODS)],
         bench="simulated",
         outcome=OUTCOMES[k % len(OUTCOMES)] if balances else Usability.USABLE,
@@ -59,14 +64,19 @@ def run_of(k: int, count: int) -> LoggedRun:
 
 
 def put(runs: Path, k: int, count: int) -> Path:
-    """Write the folder of one run, as old as it is said to be; return it."""
+    """Write the folder of one run, as old as it is said to be; return it.
+
+    A testbed file stands beside the first run of each build: to read it once is all it takes.
+    """
     run, time = run_of(k, count), made(k, count)
     name = f"{time:%Y-%m-%d_%H-%M-%S}_{run.kind}_{run.platform}_{k}"
     folder = runs / month_of(time) / name
     folder.mkdir(parents=True)
-    (folder / TESTBED).write_text(f"name = '{run.platform}'\n", encoding="utf-8")
-    (folder / RUN).write_text(text_of_run(run), encoding="utf-8")
-    os.utime(folder / RUN, (time.timestamp(), time.timestamp()))
+    if k < len(PLATFORMS) or build(k, count) != build(k - len(PLATFORMS), count):
+        (folder / TESTBED).write_text(f"name = '{run.platform}'\n", encoding="utf-8")
+    path = folder / RUN
+    path.write_text(text_of_run(run), encoding="utf-8")
+    os.utime(path, (time.timestamp(), time.timestamp()))
     return folder
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from equipoise.app.figures.base.files import write_figure
 from equipoise.app.figures.study import trend
+from equipoise.app.logbook import trend_bands
 from equipoise.app.logbook.testbed_history import letters
 from equipoise.io.documents.logbook import Choice, Logbook, RunTable
 from equipoise.model.arrays import Floats, Ints
@@ -48,13 +49,18 @@ def _trend(
         [found.columns[name][k] for k in rows] for name in COLUMNS
     )
     values, sd = (each[rows] for each in numbers)
+    times = [datetime.fromisoformat(each).astimezone().replace(tzinfo=None) for each in made_at]
+    temperature = np.array([np.nan if each is None else each for each in warmth])
+    bands = trend_bands.over_time(times, values)
     return trend.Trend(
         platform[0],
-        [datetime.fromisoformat(each).astimezone().replace(tzinfo=None) for each in made_at],
+        times,
         values,
         sd,
         [letter[key] for key in zip(platform, configuration, strict=True)],
-        np.array([np.nan if each is None else each for each in warmth]),
+        temperature,
+        bands,
+        trend_bands.over(temperature, values) if bands else (),
     )
 
 

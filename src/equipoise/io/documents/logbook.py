@@ -84,7 +84,7 @@ def open_logbook(folder: Path) -> Generator["Logbook"]:
 class Logbook:
     """See above; ``unread`` has a sentence for each folder whose ``run.json`` is not one."""
 
-    def __init__(self, index: sqlite3.Connection, unread: Sequence[str]) -> None:
+    def __init__(self, index: sqlite3.Connection, unread: list[str]) -> None:
         self._index, self.unread = index, unread
 
     def runs(self, choice: Choice = ALL) -> list[LoggedRun]:

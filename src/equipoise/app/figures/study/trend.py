@@ -17,13 +17,20 @@ from equipoise.model.units import UM
 CAPTION = (
     "Centre of mass (um) and moments of inertia (kg m2) with the masses at home, run by run, with "
     "bars of two standard deviations; dashed: the testbed file changed. On the right, if it was "
-    "recorded: against temperature. More than 2000 runs stand in 300 groups as alike in number as "
-    "can be: line and shade are the median and the middle 95 % of what the runs of a group found."
+    "recorded: against temperature. Many runs are drawn in groups: line and shade are the median "
+    "and the middle 95 % of what the runs of a group found."
 )
 LABELS = ("$r_x$, um", "$r_y$, um", "$r_z$, um", "$J_{xx}$", "$J_{yy}$", "$J_{zz}$")
-CROWDED, GROUPS = 2000, 300  # runs, and groups of them, chosen: more points cover each other
-MIDDLE = (0.025, 0.5, 0.975)
 SIZES = np.array([UM, UM, UM, 1.0, 1.0, 1.0])
+
+
+class Band(NamedTuple):
+    """What groups of runs found: a row for each group."""
+
+    at: Any  # numpy datetime64, or degC
+    low: Series1  # m, kg m^2
+    middle: Series1
+    high: Series1
 
 
 class Trend(NamedTuple):
@@ -35,6 +42,8 @@ class Trend(NamedTuple):
     sd: Series  # (n, 6)
     builds: Sequence[str]  # a letter for the testbed file of each
     temperature: Series1  # degC; NaN: not recorded
+    over_time: Sequence[Band] = ()  # of the six values, in place of single runs; empty: these
+    over_temperature: Sequence[Band] = ()
 
 
 @styled
@@ -45,13 +54,12 @@ def draw(trend: Trend) -> Figure:
     ratios = [2.2, 1.0] if warm else [1.0]
     grid = figure.subplots(6, len(ratios), squeeze=False, sharey="row", sharex="col",
                            width_ratios=ratios)  # fmt: skip
-    times: Any = np.array(trend.times, dtype="datetime64[us]")
     for i, row in enumerate(grid):
-        _runs(row[0], times, trend, i)
+        _runs(row[0], np.array(trend.times), trend, trend.over_time, i)
         row[0].set_ylabel(LABELS[i])
         _mark_builds(row[0], trend, named=i == 0)
         if warm:
-            _runs(row[1], trend.temperature, trend, i)
+            _runs(row[1], trend.temperature, trend, trend.over_temperature, i)
     locator = AutoDateLocator()
     grid[-1][0].xaxis.set_major_locator(locator)
     grid[-1][0].xaxis.set_major_formatter(ConciseDateFormatter(locator))
@@ -62,26 +70,16 @@ def draw(trend: Trend) -> Figure:
     return figure
 
 
-def _runs(axes: Axes, x: Series1, trend: Trend, i: int) -> None:
-    """Draw what runs found: one by one, or groups of them."""
-    draw = _points if len(trend.builds) <= CROWDED else _groups
-    draw(axes, x, trend, i)
+def _groups(axes: Axes, band: Band, i: int) -> None:
+    low, middle, high = (each / SIZES[i] for each in (band.low, band.middle, band.high))
+    axes.fill_between(band.at, low, high, color=XYZ[i % 3], alpha=0.2, linewidth=0)
+    axes.plot(band.at, middle, color=XYZ[i % 3])
 
 
-def _groups(axes: Axes, x: Series1, trend: Trend, i: int) -> None:
-    y = trend.values[:, i] / SIZES[i]
-    known = np.flatnonzero(np.isfinite(y) & np.isfinite(x))
-    if not len(known):
+def _runs(axes: Axes, x: Series1, trend: Trend, bands: Sequence[Band], i: int) -> None:
+    if bands:
+        _groups(axes, bands[i], i)
         return
-    order = known[np.argsort(x[known], kind="stable")]
-    groups = np.array_split(order, min(GROUPS, len(order)))
-    low, middle, high = np.array([np.quantile(y[group], MIDDLE) for group in groups]).T
-    at = x[[group[len(group) // 2] for group in groups]]
-    axes.fill_between(at, low, high, color=XYZ[i % 3], alpha=0.2, linewidth=0)
-    axes.plot(at, middle, color=XYZ[i % 3])
-
-
-def _points(axes: Axes, x: Series1, trend: Trend, i: int) -> None:
     y, spread = trend.values[:, i] / SIZES[i], BAND * trend.sd[:, i] / SIZES[i]
     axes.errorbar(
         x, y, spread, fmt="o", color=XYZ[i % 3], markersize=4, markerfacecolor="white",
