@@ -125,6 +125,33 @@ def test_the_same_recording_gives_the_same_numbers(of, strict_json):
     assert "com_x" in shown.out
 
 
+def test_runs_are_compared_by_name(of, strict_json):
+    """With the folder of the month, as the list has them, and without."""
+    named = [run["name"] for run in strict_json(of("--json").out)["runs"]]
+    for words in (named[1:], [name.partition("/")[2] for name in named[1:]]):
+        compared = strict_json(of("--compare", *words, "--json").out)["runs"]
+        assert [run["name"] for run in compared] == named[1:]
+
+
+def test_a_name_of_two_runs_is_refused(equipoise, months):
+    for month in ("2026-01", "2026-02"):
+        shutil.copytree(months / "run-0", months / month / "twin")
+    done = equipoise("logbook", months, "--compare", "twin", "run-0")
+    assert done.code == 2
+    assert "the name of 2 runs" in " ".join(done.err.split())
+    assert equipoise("logbook", months, "--compare", "2026-01/twin", "2026-02/twin").code == 0
+
+
+def test_beside_files_the_list_is_no_longer_than_usual(equipoise, tmp_path, months, strict_json):
+    for k in range(20):
+        shutil.copytree(months / "run-0", months / f"copy-{k}")
+    done = equipoise("logbook", months, "--last", "0", "--export", "all.csv")
+    assert "9 earlier runs are not shown" in done.err
+    assert len((tmp_path / "all.csv").read_text().splitlines()) == 1 + 29
+    both = equipoise("logbook", months, "--last", "0", "--export", "all.csv", "--json")
+    assert len(strict_json(both.out)["runs"]) == 29
+
+
 def test_a_table_holds_the_numbers(of, tmp_path, strict_json):
     """As CSV and as Parquet, beside what the JSON says."""
     assert of("--export", "runs.csv").code == 0

@@ -1,4 +1,4 @@
-"""What many runs found, as the median and the middle 95 % of groups: single ones hide each other."""
+"""What many runs found: median and middle 95 % of groups, where single ones hide each other."""
 
 from collections.abc import Sequence
 from datetime import datetime
