@@ -3,6 +3,7 @@
 import csv
 import hashlib
 import json
+import os
 import shutil
 import sqlite3
 from contextlib import closing
@@ -14,6 +15,7 @@ import pypdfium2
 import pytest
 
 from equipoise.app.cli import run
+from equipoise.io.documents import logbook_update
 from equipoise.io.documents.run_file import read_run, text_of_run
 
 INSIDE = {"report.html", "report.pdf", "report.json", "figures", "testbed.toml", "run.json"}
@@ -166,6 +168,25 @@ def test_a_table_holds_the_numbers(of, tmp_path, strict_json):
 
     table = parquet.read_table(tmp_path / "runs.parquet")
     assert table.column("com_z_m").to_pylist() == [float(row["com_z_m"]) for row in rows]
+
+
+@pytest.fixture
+def old(runs, tmp_path, monkeypatch):
+    """Return a balancing of long ago: neither its month nor its file is checked again."""
+    monkeypatch.setattr(logbook_update, "RECENT", 0)
+    shutil.copytree(folders(runs, "balance")[0], tmp_path / "2026-01" / "mine")
+    os.utime(tmp_path / "2026-01", (0, 0))
+    return tmp_path / "2026-01" / "mine"
+
+
+def test_a_run_of_long_ago_that_is_made_anew_is_noticed(old, equipoise, record_file):
+    """The writer sets the time of the month."""
+    assert "balance" in equipoise("logbook", old.parents[1]).out
+    words = (record_file, "--testbed", "sputnix", "--out", old)
+    assert equipoise("identify", *words).code == 0
+    listed = equipoise("logbook", old.parents[1]).out
+    assert "identify" in listed
+    assert "balance" not in listed
 
 
 def test_a_lost_index_is_made_anew(of, runs, strict_json):

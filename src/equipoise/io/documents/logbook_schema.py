@@ -34,9 +34,9 @@ MIGRATIONS = (
     """,
     """
     CREATE TABLE shards (
-        id INTEGER PRIMARY KEY, folder TEXT NOT NULL UNIQUE, stamp INTEGER NOT NULL
+        id INTEGER PRIMARY KEY, folder TEXT NOT NULL UNIQUE, stamp INTEGER
     );
-    INSERT INTO shards VALUES (0, '', 0);
+    INSERT INTO shards VALUES (0, '', NULL);
     CREATE TABLE waiting (
         shard INTEGER NOT NULL REFERENCES shards (id) ON DELETE CASCADE, name BLOB NOT NULL,
         PRIMARY KEY (shard, name)

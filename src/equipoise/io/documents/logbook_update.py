@@ -43,7 +43,7 @@ class Shard(NamedTuple):
 
     id: int
     folder: str  # within the folder of all runs; empty: that one itself
-    stamp: int  # when it was changed, ns; 0: it may have changed since
+    stamp: int | None  # when it was changed, ns; None: it may have changed since it was listed
 
 
 class Read(NamedTuple):
@@ -80,7 +80,7 @@ class Update:
         stamp = stamp_of(str(place))
         waiting = self._waiting(shard)
         try:
-            if stamp == shard.stamp:
+            if stamp is not None and stamp == shard.stamp:
                 known = recent
                 found = {n: stamp_of(f"{place}/{n}/{RUN}") for n in (*waiting, *recent)}
             else:
@@ -96,7 +96,7 @@ class Update:
         waits = {n for n, s in found.items() if s is None} | self._enter(shard, fresh)
         gone = [(shard.id, n, s) for n, s in known.items() if found.get(n) is None]
         is_settled = stamp is not None and now - stamp >= SETTLED
-        settled = shard._replace(stamp=stamp if stamp is not None and is_settled else 0)
+        settled = shard._replace(stamp=stamp if is_settled else None)
         if gone or waits != waiting or settled != shard:
             self._settle(settled, waits, gone)
 
@@ -129,7 +129,7 @@ class Update:
             self._index.execute(update, (shard.stamp, shard.id))
             if not shard.folder:
                 months = [(name,) for name in sorted(waiting) if MONTH.fullmatch(name)]
-                run("INSERT OR IGNORE INTO shards (folder, stamp) VALUES (?, 0)", months)
+                run("INSERT OR IGNORE INTO shards (folder) VALUES (?)", months)
 
     def _enter(self, shard: Shard, fresh: Sequence[tuple[str, int]]) -> set[str]:
         """Take in runs, and return those that cannot be."""
