@@ -119,23 +119,37 @@ def test_a_missing_folder_is_reported(tmp_path):
 # --- Versions ------------------------------------------------------------------------------------
 
 
+OF_OLD = (  # part, place, name, value, sd, whether it is observable; null was NaN
+    ("home", 1, "com_z", -1e-4, math.inf, 0),
+    ("home", 0, "com_x", 1.5e-6, None, 1),
+    ("standing", 0, "com_y", 2e-6, 1e-7, 1),
+)
+
+
 @pytest.mark.parametrize("version", range(1, len(MIGRATIONS)))
 def test_an_older_index_becomes_one_of_today(tmp_path, version):
     """With what it holds: the run whose folder has not changed is not read again."""
     put(tmp_path, "one", run())
     stamp = (tmp_path / "one" / RUN).stat().st_mtime_ns
     index = sqlite3.connect(tmp_path / INDEX)
+    index.execute("PRAGMA journal_mode = WAL")  # as it was then
     for script in MIGRATIONS[:version]:
         index.executescript(script)
     index.execute(
         "INSERT INTO runs (name, stamp, utc, kind, made_at, platform, configuration, method, bench,"
         " outcome, sentence, provenance) VALUES ('one', ?, 0, 'balance', '', '', '', 'of old', '',"
         " 'passed', '', '{}')", (stamp,))  # fmt: skip
+    index.executemany("INSERT INTO estimates VALUES ('one', ?, ?, ?, 'm', ?, ?, ?)", OF_OLD)
     index.execute(f"PRAGMA user_version = {version}")
     index.commit()
     index.close()
     with open_logbook(tmp_path) as book:
         assert [(entry.method, entry.temperature) for entry in book.runs()] == [("of old", None)]
+        x, z = book.numbers("one", "home")
+        assert (x.name, x.unit, x.value, x.observable) == ("com_x", "m", 1.5e-6, True)
+        assert math.isnan(x.sd)
+        assert (z.name, z.value, z.sd, z.observable) == ("com_z", -1e-4, math.inf, False)
+        assert [(p.name, p.value) for p in book.numbers("one", "standing")] == [("com_y", 2e-6)]
 
 
 def test_a_newer_index_is_refused(tmp_path):
