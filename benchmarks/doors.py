@@ -13,12 +13,13 @@ from equipoise.actuators.mass_allocation import allocate, rails_of
 from equipoise.io.columns.column_map import Layout
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.columns.table import Table
-from equipoise.io.documents.logbook import RUN, open_logbook
+from equipoise.io.documents.logbook import open_logbook
 from equipoise.io.documents.run_file import text_of_run
 from equipoise.io.formats.csv_table import csv_text, cut, row_by_row
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential
+from equipoise.model.logged_run import RUN
 from equipoise.model.recording import Recording, Samples
 from tests.io.documents.killed_writer import run
 

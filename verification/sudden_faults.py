@@ -165,7 +165,7 @@ def of_runs(left: Left) -> tuple[list[str], float]:
     """Return what is wrong with kept runs: each is whole or not there, and no more are reported."""
     wrong: list[str] = []
     runs = left.folder / "runs"
-    kept = [p for p in runs.iterdir() if not p.name.startswith(".")] if runs.exists() else []
+    kept = [p for p in runs.glob("*/*") if not p.name.startswith(".")]
     for run in kept:
         whole = {f"{n}.txt": f"{n} " * 3000 for n in range(FILES)}
         if {p.name: p.read_text() if p.is_file() else "" for p in run.iterdir()} != whole:
@@ -251,7 +251,7 @@ def _said(left: Left) -> list[str]:
 def _hidden(folder: Path) -> list[str]:
     """Return what is still hidden once others have written there."""
     wrong: list[str] = []
-    for place in (folder, folder / "runs", folder / OUT):
+    for place in (folder, folder / "runs", *folder.glob("runs/[0-9]*"), folder / OUT):
         if place.is_dir():
             write_whole(place / "after.txt", "written by the next one")
             wrong += [f"left: {p.name}" for p in place.glob(".*")]

@@ -146,7 +146,7 @@ def test_a_kept_run_has_its_names_in_page_paper_list_and_table(
     monkeypatch.setenv("EQUIPOISE_RUNS", "runs")
     bed, recording = named
     assert equipoise("identify", recording, "--testbed", bed).code == 0
-    (folder,) = (tmp_path / "runs").iterdir()
+    (folder,) = (tmp_path / "runs").glob("*/*")
     assert re.fullmatch(r"[\w.-]+", folder.name)
     page = (folder / "report.html").read_text(encoding="utf-8")
     assert html.escape(MARKUP) in page

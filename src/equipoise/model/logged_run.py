@@ -31,7 +31,7 @@ def ending_of(code: str) -> Ending:
 class LoggedRun:
     """One run: of which platform, how it was built then, by what, and what came of it."""
 
-    name: str  # of its folder
+    name: str  # of its folder; in a logbook with the month's: 2026-11/2026-11-28_09-00-00_balance_a
     kind: Kind
     made_at: str  # ISO 8601 with its offset from UTC
     platform: str

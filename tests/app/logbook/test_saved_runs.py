@@ -3,6 +3,7 @@
 import csv
 import hashlib
 import json
+import os
 import shutil
 import sqlite3
 from contextlib import closing
@@ -14,6 +15,7 @@ import pypdfium2
 import pytest
 
 from equipoise.app.cli import run
+from equipoise.io.documents import logbook_update
 from equipoise.io.documents.run_file import read_run, text_of_run
 
 INSIDE = {"report.html", "report.pdf", "report.json", "figures", "testbed.toml", "run.json"}
@@ -39,7 +41,7 @@ def of(runs, equipoise, monkeypatch):
 
 
 def folders(runs, kind):
-    return sorted(path for path in runs.iterdir() if kind in path.name)
+    return sorted(path for path in runs.glob("*/*") if kind in path.name)
 
 
 def test_each_run_has_a_folder_of_its_own(runs):
@@ -125,6 +127,33 @@ def test_the_same_recording_gives_the_same_numbers(of, strict_json):
     assert "com_x" in shown.out
 
 
+def test_runs_are_compared_by_name(of, strict_json):
+    """With the folder of the month, as the list has them, and without."""
+    named = [run["name"] for run in strict_json(of("--json").out)["runs"]]
+    for words in (named[1:], [name.partition("/")[2] for name in named[1:]]):
+        compared = strict_json(of("--compare", *words, "--json").out)["runs"]
+        assert [run["name"] for run in compared] == named[1:]
+
+
+def test_a_name_of_two_runs_is_refused(equipoise, months):
+    for month in ("2026-01", "2026-02"):
+        shutil.copytree(months / "run-0", months / month / "twin")
+    done = equipoise("logbook", months, "--compare", "twin", "run-0")
+    assert done.code == 2
+    assert "the name of 2 runs" in " ".join(done.err.split())
+    assert equipoise("logbook", months, "--compare", "2026-01/twin", "2026-02/twin").code == 0
+
+
+def test_beside_files_the_list_is_no_longer_than_usual(equipoise, tmp_path, months, strict_json):
+    for k in range(20):
+        shutil.copytree(months / "run-0", months / f"copy-{k}")
+    done = equipoise("logbook", months, "--last", "0", "--export", "all.csv")
+    assert "9 earlier runs are not shown" in done.err
+    assert len((tmp_path / "all.csv").read_text().splitlines()) == 1 + 29
+    both = equipoise("logbook", months, "--last", "0", "--export", "all.csv", "--json")
+    assert len(strict_json(both.out)["runs"]) == 29
+
+
 def test_a_table_holds_the_numbers(of, tmp_path, strict_json):
     """As CSV and as Parquet, beside what the JSON says."""
     assert of("--export", "runs.csv").code == 0
@@ -139,6 +168,25 @@ def test_a_table_holds_the_numbers(of, tmp_path, strict_json):
 
     table = parquet.read_table(tmp_path / "runs.parquet")
     assert table.column("com_z_m").to_pylist() == [float(row["com_z_m"]) for row in rows]
+
+
+@pytest.fixture
+def old(runs, tmp_path, monkeypatch):
+    """Return a balancing of long ago: neither its month nor its file is checked again."""
+    monkeypatch.setattr(logbook_update, "RECENT", 0)
+    shutil.copytree(folders(runs, "balance")[0], tmp_path / "2026-01" / "mine")
+    os.utime(tmp_path / "2026-01", (0, 0))
+    return tmp_path / "2026-01" / "mine"
+
+
+def test_a_run_of_long_ago_that_is_made_anew_is_noticed(old, equipoise, record_file):
+    """The writer sets the time of the month."""
+    assert "balance" in equipoise("logbook", old.parents[1]).out
+    words = (record_file, "--testbed", "sputnix", "--out", old)
+    assert equipoise("identify", *words).code == 0
+    listed = equipoise("logbook", old.parents[1]).out
+    assert "identify" in listed
+    assert "balance" not in listed
 
 
 def test_a_lost_index_is_made_anew(of, runs, strict_json):

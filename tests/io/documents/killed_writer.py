@@ -65,8 +65,8 @@ def trial(folder: Path, child: int, delay: float) -> str:
     os.waitpid(pid, 0)
     index = sqlite3.connect(folder / INDEX)
     sound = index.execute("PRAGMA integrity_check").fetchone()[0]
-    numbers = "(SELECT count(*) FROM estimates WHERE run = runs.name)"
-    halves = index.execute(f"SELECT count(*) FROM runs WHERE {numbers} <> 3").fetchone()[0]
+    numbers = "(SELECT total(length(data)) FROM numbers WHERE run = runs.id)"  # 3 with their sd
+    halves = index.execute(f"SELECT count(*) FROM runs WHERE {numbers} <> 48").fetchone()[0]
     index.close()
     whole = {path.parent.name for path in folder.glob(f"*/{RUN}")}
     with open_logbook(folder) as book:

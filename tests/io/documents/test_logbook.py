@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from equipoise.io.documents import run_file
-from equipoise.io.documents.logbook import INDEX, MIGRATIONS, open_logbook
+from equipoise.io.documents.logbook import INDEX, Choice, open_logbook
+from equipoise.io.documents.logbook_schema import MIGRATIONS
 from equipoise.io.documents.run_file import read_run
 from equipoise.model.errors import InputError
 from equipoise.model.logged_run import RUN
@@ -63,7 +64,7 @@ def test_it_knows_what_came_changed_or_went_since(tmp_path):
             ("three", "passed"),
             ("one", "failed"),
         ]
-        assert [r.name for r in book.runs("outcome = ?", ["failed"])] == ["one"]
+        assert [r.name for r in book.runs(Choice("outcome = ?", ["failed"]))] == ["one"]
         assert len(book.numbers("one", "home")) == 2
 
 
@@ -118,23 +119,37 @@ def test_a_missing_folder_is_reported(tmp_path):
 # --- Versions ------------------------------------------------------------------------------------
 
 
+OF_OLD = (  # part, place, name, value, sd, whether it is observable; null was NaN
+    ("home", 1, "com_z", -1e-4, math.inf, 0),
+    ("home", 0, "com_x", 1.5e-6, None, 1),
+    ("standing", 0, "com_y", 2e-6, 1e-7, 1),
+)
+
+
 @pytest.mark.parametrize("version", range(1, len(MIGRATIONS)))
 def test_an_older_index_becomes_one_of_today(tmp_path, version):
     """With what it holds: the run whose folder has not changed is not read again."""
     put(tmp_path, "one", run())
     stamp = (tmp_path / "one" / RUN).stat().st_mtime_ns
     index = sqlite3.connect(tmp_path / INDEX)
+    index.execute("PRAGMA journal_mode = WAL")  # as it was then
     for script in MIGRATIONS[:version]:
         index.executescript(script)
     index.execute(
         "INSERT INTO runs (name, stamp, utc, kind, made_at, platform, configuration, method, bench,"
         " outcome, sentence, provenance) VALUES ('one', ?, 0, 'balance', '', '', '', 'of old', '',"
         " 'passed', '', '{}')", (stamp,))  # fmt: skip
+    index.executemany("INSERT INTO estimates VALUES ('one', ?, ?, ?, 'm', ?, ?, ?)", OF_OLD)
     index.execute(f"PRAGMA user_version = {version}")
     index.commit()
     index.close()
     with open_logbook(tmp_path) as book:
         assert [(entry.method, entry.temperature) for entry in book.runs()] == [("of old", None)]
+        x, z = book.numbers("one", "home")
+        assert (x.name, x.unit, x.value, x.observable) == ("com_x", "m", 1.5e-6, True)
+        assert math.isnan(x.sd)
+        assert (z.name, z.value, z.sd, z.observable) == ("com_z", -1e-4, math.inf, False)
+        assert [(p.name, p.value) for p in book.numbers("one", "standing")] == [("com_y", 2e-6)]
 
 
 def test_a_newer_index_is_refused(tmp_path):
@@ -147,11 +162,11 @@ def test_a_newer_index_is_refused(tmp_path):
 
 
 def test_a_migration_that_fails_changes_nothing(tmp_path, monkeypatch):
-    from equipoise.io.documents import logbook
+    from equipoise.io.documents import logbook_schema
 
     listed(tmp_path)
     broken = (*MIGRATIONS, "CREATE TABLE more (x TEXT); NOT SQL;")
-    monkeypatch.setattr(logbook, "MIGRATIONS", broken)
+    monkeypatch.setattr(logbook_schema, "MIGRATIONS", broken)
     with pytest.raises(InputError, match="syntax error"), open_logbook(tmp_path):
         pass
     monkeypatch.undo()

@@ -2,11 +2,14 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 from cyclopts import Parameter
 
 from equipoise.app.arguments.options import Whole
+
+if TYPE_CHECKING:
+    from equipoise.io.documents.logbook import Choice
 
 
 @Parameter(name="*")
@@ -42,12 +45,16 @@ class WantedRuns:
 
 
 LATEST = WantedRuns()
+BUILDS = "SELECT id FROM builds WHERE instr(lower(platform), lower(?)) > 0"  # few beside the runs
 
 
-def condition(wanted: WantedRuns) -> tuple[str, list[Any]]:
-    """Return what a logbook is asked for: a condition, and a value for each ``?`` of it."""
+def choice_of(wanted: WantedRuns) -> "Choice":
+    """Return what a logbook is asked for."""
+    from equipoise.io.documents.logbook import Choice
+
     parts = list(_parts(wanted))
-    return " AND ".join(text for text, _ in parts), [value for _, value in parts]
+    where = " AND ".join(text for text, _ in parts)
+    return Choice(where, [value for _, value in parts], wanted.last or None)
 
 
 def _parts(wanted: WantedRuns) -> Iterator[tuple[str, Any]]:
@@ -56,7 +63,7 @@ def _parts(wanted: WantedRuns) -> Iterator[tuple[str, Any]]:
     from equipoise.model.verdict import VerdictOutcome
 
     if wanted.platform is not None:
-        yield "instr(lower(platform), lower(?)) > 0", wanted.platform
+        yield f"build IN ({BUILDS})", wanted.platform
     if wanted.kind is not None:
         yield "kind = ?", one_of("--kind", wanted.kind, list(get_args(Kind)))
     if wanted.outcome is not None:

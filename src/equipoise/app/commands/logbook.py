@@ -4,12 +4,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag, Json, Listed
-from equipoise.app.arguments.run_filter import LATEST, WantedRuns, condition
+from equipoise.app.arguments.run_filter import LATEST, WantedRuns, choice_of
 from equipoise.app.console.terminal import busy, complain, show_paths, stderr
 
 if TYPE_CHECKING:
-    from equipoise.io.documents.logbook import Logbook
-    from equipoise.model.logged_run import LoggedRun
+    from equipoise.io.documents.logbook import Choice, Logbook
 
 
 def logbook(
@@ -32,8 +31,8 @@ def logbook(
     folder
         Folder of runs. Left out: what EQUIPOISE_RUNS names, else equipoise-runs.
     compare
-        Runs to set side by side, by their number in the list or by name, the first one as what
-        the others are compared with.
+        Runs to set side by side, by their number in the list or by name, with or without the
+        folder of its month; the first one as what the others are compared with.
     builds
         List instead the testbed files that platforms have had, and what changed in each.
     trend
@@ -50,16 +49,17 @@ def logbook(
         raise InputError("--builds", "with --compare", "one of the two")
     for path in (trend, export):
         _check(path, ".png .svg .pdf" if path is trend else ".csv .parquet")
+    choice = choice_of(wanted)
     with open_logbook(folder or runs_folder() or Path(USUAL)) as book:
         for sentence in book.unread:
             complain(f"left out: {sentence}")
-        shown = book.runs(*condition(wanted), wanted.last or None)
         if builds:
-            _show_builds(book, wanted, json)
+            _show_builds(book, choice, json)
+        elif compare:
+            _show_compared(book, choice, compare, json)
         else:
-            earlier = book.count(*condition(wanted)) - len(shown)
-            _show(book, shown, earlier, compare, json)
-        _write(book, shown, trend, export, json)
+            _show(book, choice, json, bool(trend or export))
+        _write(book, choice, trend, export, json)
     return 0
 
 
@@ -73,42 +73,49 @@ def _check(path: Path | None, suffixes: str) -> None:
         check_writable(path)
 
 
-def _show(
-    book: "Logbook", shown: "list[LoggedRun]", earlier: int, compare: Listed, json: bool
-) -> None:
-    """Print runs, or those that are to be compared side by side."""
+def _show(book: "Logbook", choice: "Choice", json: bool, in_files: bool) -> None:
+    """Print runs; in a table no more than usual of those that files have too."""
     from equipoise.app.logbook import views
     from equipoise.app.logbook.output import print_result
 
-    chosen = [views.chosen(shown, name) for name in compare]
-    if chosen:
-        print_result(views.compared_json(book, chosen), (views.compared(book, chosen),), json)
-        return
+    if in_files and not json:
+        choice = choice._replace(last=min(choice.last or LATEST.last, LATEST.last))
+    shown = book.runs(choice)
+    earlier = book.count(choice) - len(shown)
     if earlier and not json:
         stderr().print(f"{earlier} earlier runs are not shown (--last 0: all).")
     print_result(views.runs_json(book, shown), views.runs_blocks(book, shown), json)
 
 
-def _show_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
+def _show_compared(book: "Logbook", choice: "Choice", compare: Listed, json: bool) -> None:
+    from equipoise.app.logbook import views
+    from equipoise.app.logbook.output import print_result
+
+    shown = book.runs(choice)
+    chosen = [views.chosen(shown, name) for name in compare]
+    print_result(views.compared_json(book, chosen), (views.compared(book, chosen),), json)
+
+
+def _show_builds(book: "Logbook", choice: "Choice", json: bool) -> None:
     from equipoise.app.logbook.output import print_result
     from equipoise.app.logbook.testbed_history import builds_blocks, builds_json
 
-    shown = book.builds(*condition(wanted))
+    shown = book.builds(choice)
     print_result(builds_json(book, shown), builds_blocks(book, shown), json)
 
 
 def _write(
-    book: "Logbook", shown: "list[LoggedRun]", trend: Path | None, export: Path | None, aside: bool
+    book: "Logbook", choice: "Choice", trend: Path | None, export: Path | None, aside: bool
 ) -> None:
     paths = [path for path in (trend, export) if path is not None]
     if trend is not None:
         with busy("drawing"):
             from equipoise.app.logbook.trend import write_trend
 
-            write_trend(book, shown, trend)
+            write_trend(book, choice, trend)
     if export is not None:
         from equipoise.app.logbook.export import write_export
 
-        write_export(book, shown, export)
+        write_export(book, choice, export)
     if paths:
         show_paths(paths, aside)

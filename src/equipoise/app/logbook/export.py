@@ -1,42 +1,42 @@
 """Runs of a logbook as a table: a line a run, SI units in the names of columns."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from equipoise.app.text.csv_lines import csv_lines
-from equipoise.io.documents.logbook import Logbook
+from equipoise.io.documents.logbook import Choice, Logbook
 from equipoise.io.files.atomic_file import write_whole
 from equipoise.io.formats.parquet_table import parquet_of_cells
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.model.logged_run import LoggedRun
 
 TEXTS = ("name", "made_at", "platform", "configuration", "kind", "method", "bench", "outcome",
          "sentence")  # fmt: skip
-JUDGED = "judged"
+TEMPERATURE = "temperature"
 UNITS = dict.fromkeys(COM, "m") | dict.fromkeys(INERTIA, "kg_m2")
+PARTS = {"home": ("", (*COM, *INERTIA)), "standing": ("judged_", COM)}  # prefix and names
 
 
-def write_export(book: Logbook, runs: Sequence[LoggedRun], path: Path) -> None:
+def write_export(book: Logbook, choice: Choice, path: Path) -> None:
     """Write the table as CSV or Parquet, as the file's name asks for."""
-    columns = table(book, runs)
+    columns = table(book, choice)
     if path.suffix.lower() == ".parquet":
         write_whole(path, parquet_of_cells(columns, str(path)))
     else:
-        write_whole(path, csv_lines(list(columns), zip(*columns.values(), strict=True)))
+        cells = (c.tolist() if isinstance(c, np.ma.MaskedArray) else c for c in columns.values())
+        write_whole(path, csv_lines(list(columns), zip(*cells, strict=True)))
 
 
-def table(book: Logbook, runs: Sequence[LoggedRun]) -> dict[str, list[Any]]:
-    """Return the columns; None for what a run has not."""
-    columns: dict[str, list[Any]] = {c: [getattr(run, c) for run in runs] for c in TEXTS}
-    columns["temperature_degC"] = [run.temperature for run in runs]
-    home = [{p.name: p for p in book.numbers(run.name, "home")} for run in runs]
-    judged = [{p.name: p for p in book.numbers(run.name, "standing")} for run in runs]
-    parts = [("", home, (*COM, *INERTIA)), (f"{JUDGED}_", judged, COM)]
-    for prefix, found, names in parts:
-        for name in names:
-            numbers = [each.get(name) for each in found]
-            column = f"{prefix}{name}"
-            columns[f"{column}_{UNITS[name]}"] = [None if p is None else p.value for p in numbers]
-            columns[f"{column}_sd_{UNITS[name]}"] = [None if p is None else p.sd for p in numbers]
+def table(book: Logbook, choice: Choice) -> dict[str, Any]:
+    """Return the columns; None, or masked, for what a run has not."""
+    found = book.table((*TEXTS, TEMPERATURE), list(PARTS), choice)
+    columns: dict[str, Any] = {name: found.columns[name] for name in TEXTS}
+    columns["temperature_degC"] = found.columns[TEMPERATURE]
+    for part, (prefix, names) in PARTS.items():
+        numbers = found.numbers(part, names)
+        for k, name in enumerate(names):
+            for kind, values in (("", numbers.value), ("sd_", numbers.sd)):
+                column = np.ma.array(values[:, k], mask=~numbers.there[:, k])
+                columns[f"{prefix}{name}_{kind}{UNITS[name]}"] = column
     return columns

@@ -1,4 +1,7 @@
-"""Where a run is put down: the folder that was asked for, or one of its own among the runs."""
+"""Where a run is put down: the folder that was asked for, or one of its own among the runs.
+
+Its own is in a folder of the month, so that a logbook lists again only the months that changed.
+"""
 
 import os
 from datetime import datetime
@@ -7,6 +10,7 @@ from pathlib import Path
 
 from equipoise.app.console.terminal import complain
 from equipoise.app.text.escaping import for_file_name
+from equipoise.io.documents.run_shards import month_of
 from equipoise.io.files.atomic_file import check_folder
 from equipoise.model.errors import InputError
 
@@ -24,13 +28,19 @@ def own_folder(kind: str, platform: str) -> Path | None:
     runs = runs_folder()
     if runs is None:
         return None
+    made = datetime.now()
+    month = runs / month_of(made)
     try:
-        check_folder(runs)
+        check_folder(month)
     except InputError as error:
         complain(f"this run is not kept: {error}; --out or {VARIABLE} name another folder")
         return None
-    now = datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
-    return free(runs / f"{now}_{kind}_{slug(platform)}")
+    return free(month / f"{made:%Y-%m-%d_%H-%M-%S}_{kind}_{slug(platform)}")
+
+
+def name_of(folder: Path) -> str:
+    """Return what a logbook calls a run in a folder of its own: its path among the runs."""
+    return f"{folder.parent.name}/{folder.name}"
 
 
 def slug(platform: str) -> str:

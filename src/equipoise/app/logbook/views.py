@@ -79,14 +79,20 @@ def _short(parameter: Parameter) -> str:
 
 
 def chosen(runs: Sequence[LoggedRun], name: str) -> LoggedRun:
-    """Return a run by its number in the list, or by its name.
+    """Return a run by its number in the list, or by its name, with or without its month's folder.
 
-    Raises InputError if there is none.
+    Raises InputError if there is none, or if the name is that of several.
     """
-    by_name = {run.name: run for run in runs} | {str(k): r for k, r in enumerate(runs, 1)}
-    if name not in by_name:
-        raise InputError("--compare", f"'{name}'", f"a number from 1 to {len(runs)}, or a name")
-    return by_name[name]
+    by_number = {str(k): run for k, run in enumerate(runs, 1)}
+    if name in by_number:
+        return by_number[name]
+    named = [run for run in runs if run.name == name] or [
+        run for run in runs if run.name.rpartition("/")[2] == name
+    ]
+    if len(named) == 1:
+        return named[0]
+    found = f"'{name}', the name of {len(named)} runs" if named else f"'{name}'"
+    raise InputError("--compare", found, f"a number from 1 to {len(runs)}, or a name")
 
 
 def compared(book: Logbook, runs: Sequence[LoggedRun]) -> Table:

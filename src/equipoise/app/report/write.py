@@ -12,6 +12,7 @@ from equipoise.app.report.run_record import Output, RunRecord
 from equipoise.app.report.saved_report import DOCUMENT, saved_document, saved_drawing
 from equipoise.app.text.blocks import Document, printed, text_of_document
 from equipoise.app.text.json_document import dump
+from equipoise.io.documents.run_folder import announce
 from equipoise.io.files.atomic_file import write_folder
 
 Files = dict[str, str | bytes]
@@ -27,7 +28,10 @@ def write_output(output: Output, folder: Path) -> list[Path]:
         kept = logbook_entry.files_of(output.logged, record, folder.name)
         record = replace(record, origin={**record.origin, **logbook_entry.hashes(kept)})
     document: Files = {f"{output.name}.json": dump(output.document) + "\n"}
-    return write_folder(folder, files_of(record) | document | kept)
+    paths = write_folder(folder, files_of(record) | document | kept)
+    if output.logged is not None:
+        announce(folder)
+    return paths
 
 
 def files_of(record: RunRecord) -> Files:

@@ -1,32 +1,58 @@
 """A logbook: the index of a folder of runs, in SQLite beside them.
 
 The folders are what counts. The index can be deleted at any time: it is made anew from them. Each
-time it is opened it takes in what has come, changed or gone since. Several processes may have it
-open (write-ahead log); each run is taken in whole or not at all. An index of an older version
-becomes one of today.
+time it is opened it takes in what has come, changed or gone since (``logbook_update`` says what it
+does not notice). Several processes may have it open; each run is taken in whole or not at all. An
+index of an older version becomes one of today.
 """
 
 import json
-import os
 import sqlite3
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from contextlib import contextmanager
-from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from equipoise.io.documents.run_folder import read_configuration
+from equipoise.io.documents.logbook_numbers import Numbers, arrays, unpacked
+from equipoise.io.documents.logbook_schema import migrate
+from equipoise.io.documents.logbook_update import Update
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Parameter
-from equipoise.model.logged_run import RUN, Build, LoggedRun, ending_of
+from equipoise.model.logged_run import Build, LoggedRun, ending_of
 
 INDEX = "logbook.sqlite"
 PATIENCE = 30.0  # s, chosen: for another process to end what it writes
+MEMORY = 64 * 1024  # KiB of the index that are kept in memory, chosen
 REMADE = "a logbook's index; delete it, and it is made anew from the folders of the runs"
-LATEST = 32_503_680_000.0  # s since 1970, chosen: the year 3000, which every clock can show
-A_TIME = "a time from 1970 to 2999, such as 2026-03-01T09:00:00+01:00"
+NAME = "CASE folder WHEN '' THEN runs.name ELSE folder || '/' || runs.name END"
 COLUMNS = ("name", "kind", "made_at", "platform", "configuration", "method", "bench", "outcome",
            "sentence", "temperature", "provenance")  # fmt: skip
+# The index by time has all that runs are filtered by: what does not match is never fetched.
+RUNS = ("runs INDEXED BY runs_by_time CROSS JOIN builds ON builds.id = runs.build "
+        "CROSS JOIN shards ON shards.id = runs.shard")  # fmt: skip
+ORDER = "ORDER BY utc DESC, runs.name DESC, runs.id DESC LIMIT ?"
+
+
+class Choice(NamedTuple):
+    """Which runs: a condition on the columns of ``runs``, with a ``?`` for each value."""
+
+    where: str = ""
+    values: Sequence[Any] = ()
+    last: int | None = None  # of these the last so many; None: all
+
+
+ALL = Choice()
+
+
+class RunTable(NamedTuple):
+    """Runs by column, the first one first."""
+
+    columns: Mapping[str, Sequence[Any]]
+    cells: Mapping[str, Sequence[tuple[str | None, bytes | None]]]  # form and numbers, by part
+
+    def numbers(self, part: str, names: Sequence[str]) -> Numbers:
+        """Return the numbers of these names in a part."""
+        return arrays(self.cells[part], names)
 
 
 @contextmanager
@@ -41,12 +67,14 @@ def open_logbook(folder: Path) -> Generator["Logbook"]:
     try:
         index = sqlite3.connect(path, timeout=PATIENCE, isolation_level=None)
         try:
-            index.execute("PRAGMA journal_mode = WAL")
+            # No file comes or goes, which would make the folder one that has changed.
+            index.execute("PRAGMA journal_mode = TRUNCATE")
             index.execute("PRAGMA foreign_keys = ON")
+            index.execute(f"PRAGMA cache_size = -{MEMORY}")
             migrate(index, str(path))
-            logbook = Logbook(index, folder)
-            logbook.take_in()
-            yield logbook
+            update = Update(index, folder)
+            update.carry_out()
+            yield Logbook(index, update.unread)
         finally:
             index.close()
     except (sqlite3.Error, UnicodeDecodeError) as error:  # what SQLite says need not be text
@@ -56,55 +84,52 @@ def open_logbook(folder: Path) -> Generator["Logbook"]:
 class Logbook:
     """See above; ``unread`` has a sentence for each folder whose ``run.json`` is not one."""
 
-    def __init__(self, index: sqlite3.Connection, folder: Path) -> None:
-        self._index, self.folder = index, folder
-        self.unread: list[str] = []
+    def __init__(self, index: sqlite3.Connection, unread: list[str]) -> None:
+        self._index, self.unread = index, unread
 
-    def take_in(self) -> None:
-        """Take in the runs that came or changed since, and drop those that are gone."""
-        known = dict(self._index.execute("SELECT name, stamp FROM runs"))
-        there = dict(_stamps(self.folder))
-        changed = [name for name, stamp in there.items() if known.get(name) != stamp]
-        gone = known.keys() - there.keys()
-        if not changed and not gone:
-            return
-        with self._whole():
-            self._index.executemany("DELETE FROM runs WHERE name = ?", [(n,) for n in gone])
-            for name in changed:
-                self._enter(name, there[name])
+    def runs(self, choice: Choice = ALL) -> list[LoggedRun]:
+        """Return runs, the first one first, without their numbers."""
+        columns = ", ".join((NAME, *COLUMNS[1:]))
+        return [_run(row) for row in self._chosen(columns, RUNS, choice)]
 
-    def runs(
-        self, where: str = "", values: Sequence[Any] = (), last: int | None = None
-    ) -> list[LoggedRun]:
-        """Return runs, the first one first, without their numbers; or the last so many of them.
+    def count(self, choice: Choice = ALL) -> int:
+        """Return how many runs there are; ``last`` plays no part."""
+        query = f"SELECT count(*) FROM runs WHERE {choice.where or 'TRUE'}"
+        return self._index.execute(query, tuple(choice.values)).fetchone()[0]
 
-        ``where`` is a condition on the columns of ``runs``, with a ``?`` for each value.
-        """
-        query = (f"SELECT {', '.join(COLUMNS)} FROM runs WHERE {where or 'TRUE'} "
-                 "ORDER BY utc DESC, name DESC LIMIT ?")  # fmt: skip
-        most = -1 if last is None else last
-        return [_run(row) for row in self._index.execute(query, (*values, most))][::-1]
-
-    def count(self, where: str = "", values: Sequence[Any] = ()) -> int:
-        """Return how many runs there are."""
-        query = f"SELECT count(*) FROM runs WHERE {where or 'TRUE'}"
-        return self._index.execute(query, tuple(values)).fetchone()[0]
-
-    def builds(self, where: str = "", values: Sequence[Any] = ()) -> list[Build]:
-        """Return each testbed file that platforms have had, as they came; of all runs, or some."""
-        query = ("SELECT platform, configuration, min(utc), max(utc), count(*) FROM runs "
-                 f"WHERE {where or 'TRUE'} GROUP BY platform, configuration "
-                 "ORDER BY min(utc)")  # fmt: skip
-        return [Build(*row) for row in self._index.execute(query, tuple(values))]
+    def builds(self, choice: Choice = ALL) -> list[Build]:
+        """Return each testbed file that platforms have had, as they came; ``last``: no part."""
+        query = ("SELECT platform, configuration, first, last, runs FROM builds JOIN ("
+                 "SELECT build, min(utc) AS first, max(utc) AS last, count(*) AS runs "
+                 f"FROM runs INDEXED BY runs_by_build WHERE {choice.where or 'TRUE'} "
+                 "GROUP BY build) ON build = builds.id ORDER BY first")  # fmt: skip
+        return [Build(*row) for row in self._index.execute(query, tuple(choice.values))]
 
     def numbers(self, name: str, part: str) -> tuple[Parameter, ...]:
         """Return a run's numbers: of ``part`` 'home' the estimate, of 'standing' the verdict."""
-        query = ("SELECT name, unit, value, sd, observable FROM estimates "
-                 "WHERE run = ? AND part = ? ORDER BY place")  # fmt: skip
-        return tuple(
-            Parameter(n, unit, _number(value), _number(sd), bool(observed))
-            for n, unit, value, sd, observed in self._index.execute(query, (name, part))
-        )
+        folder, _, own = name.rpartition("/")
+        query = ("SELECT text, data FROM numbers JOIN forms ON forms.id = form WHERE part = ? "
+                 "AND run = (SELECT runs.id FROM runs JOIN shards ON shards.id = shard "
+                 "WHERE folder = ? AND name = ?)")  # fmt: skip
+        row = self._index.execute(query, (part, folder, own)).fetchone()
+        return () if row is None else unpacked(*row)
+
+    def table(self, names: Sequence[str], parts: Sequence[str], choice: Choice = ALL) -> RunTable:
+        """Return columns of ``COLUMNS``, and numbers of parts; no record is made of each run."""
+        columns = [NAME if name == "name" else name for name in names]
+        tables = [RUNS]
+        for part in parts:
+            columns += f"{part}.form", f"{part}.data"
+            tables.append(f"LEFT JOIN numbers AS {part} ON {part}.run = runs.id "
+                          f"AND {part}.part = '{part}'")  # fmt: skip
+        rows = self._chosen(", ".join(columns), " ".join(tables), choice)
+        forms = dict(self._index.execute("SELECT id, text FROM forms"))
+        values = list(zip(*rows, strict=True)) or [()] * len(columns)
+        n = len(names)
+        pairs = zip(values[n::2], values[n + 1 :: 2], strict=True)
+        cells = {part: [(forms.get(form), cell) for form, cell in zip(*pair, strict=True)]
+                 for part, pair in zip(parts, pairs, strict=True)}  # fmt: skip
+        return RunTable(dict(zip(names, values, strict=False)), cells)
 
     def configuration(self, hash_: str) -> str:
         """Return the text of a testbed; empty if no run's folder has it."""
@@ -112,77 +137,10 @@ class Logbook:
         row = self._index.execute(query, (hash_,)).fetchone()
         return "" if row is None else row[0]
 
-    def _enter(self, name: str, stamp: int) -> None:
-        # Where nothing is new, nothing needs to be read: listing does without what reading needs.
-        from equipoise.io.documents.run_file import read_run
-
-        # A run may come from anywhere: whatever is wrong with it costs the list that run alone.
-        self._index.execute("SAVEPOINT one")
-        try:
-            run = read_run(self.folder / name)
-            self._insert(name, stamp, _utc(run.made_at, str(self.folder / name)), run)
-        except InputError as error:
-            self._leave_out(str(error))
-        except (ValueError, ArithmeticError, sqlite3.DataError) as error:
-            self._leave_out(f"{self.folder / name}: {error}")
-        self._index.execute("RELEASE one")
-
-    def _leave_out(self, sentence: str) -> None:
-        self._index.execute("ROLLBACK TO one")
-        self.unread.append(sentence)
-
-    def _insert(self, name: str, stamp: int, utc: float, run: LoggedRun) -> None:
-        values = (*(getattr(run, c) for c in COLUMNS[:-1]), json.dumps(dict(run.provenance)))
-        marks = ", ".join("?" * (len(COLUMNS) + 2))
-        names = ", ".join((*COLUMNS, "stamp", "utc"))
-        self._index.execute("DELETE FROM runs WHERE name = ?", (name,))
-        self._index.execute(f"INSERT INTO runs ({names}) VALUES ({marks})", (*values, stamp, utc))
-        rows = [(name, *row) for row in _rows(run)]
-        self._index.executemany("INSERT INTO estimates VALUES (?, ?, ?, ?, ?, ?, ?, ?)", rows)
-        text = read_configuration(self.folder / name)
-        if text:
-            known = (run.configuration, run.platform, text)
-            self._index.execute("INSERT OR IGNORE INTO configurations VALUES (?, ?, ?)", known)
-
-    @contextmanager
-    def _whole(self) -> Generator[None]:
-        """Carry out all of a block, or nothing of it."""
-        self._index.execute("BEGIN IMMEDIATE")
-        try:
-            yield
-        except BaseException:
-            self._index.execute("ROLLBACK")
-            raise
-        self._index.execute("COMMIT")
-
-
-def _utc(made_at: str, where: str) -> float:
-    """Return a time as s since 1970; InputError for one at which no run was made."""
-    try:
-        utc = datetime.fromisoformat(made_at).astimezone().timestamp()
-    except (ValueError, ArithmeticError, OSError) as error:
-        raise InputError(f"{where}: made_at", str(error), A_TIME) from error
-    if not 0 <= utc < LATEST:
-        raise InputError(f"{where}: made_at", f"'{made_at}'", A_TIME)
-    return utc
-
-
-def _stamps(folder: Path) -> Iterator[tuple[str, int]]:
-    """Yield the name of each run's folder, and when its ``run.json`` was last written, ns."""
-    top = str(folder)
-    for name in os.listdir(folder):  # noqa: PTH208  (pathlib takes three times as long)
-        if not name.startswith("."):
-            try:
-                yield name, os.stat(f"{top}/{name}/{RUN}").st_mtime_ns  # noqa: PTH116
-            except OSError:
-                continue  # some other file or folder, or a run that is not whole yet
-
-
-def _rows(run: LoggedRun) -> Iterator[tuple[str, int, str, str, float, float, bool]]:
-    """Yield part, place and number of all that is known by number."""
-    for part, numbers in (("home", run.parameters), ("standing", run.standing)):
-        for place, p in enumerate(numbers):
-            yield part, place, p.name, p.unit, p.value, p.sd, p.observable
+    def _chosen(self, columns: str, tables: str, choice: Choice) -> list[tuple[Any, ...]]:
+        query = f"SELECT {columns} FROM {tables} WHERE {choice.where or 'TRUE'} {ORDER}"
+        most = -1 if choice.last is None else choice.last
+        return self._index.execute(query, (*choice.values, most)).fetchall()[::-1]
 
 
 def _run(row: tuple[Any, ...]) -> LoggedRun:
@@ -190,55 +148,3 @@ def _run(row: tuple[Any, ...]) -> LoggedRun:
     named = dict(zip(COLUMNS, values, strict=False))
     named["outcome"] = ending_of(named["outcome"])
     return LoggedRun(**named, provenance=json.loads(provenance))
-
-
-def _number(stored: float | None) -> float:
-    """Return what SQLite has kept; it knows no NaN."""
-    return float("nan") if stored is None else stored
-
-
-# One script for each version; what was published once is never changed, only followed.
-MIGRATIONS = (
-    """
-    CREATE TABLE configurations (
-        hash TEXT PRIMARY KEY, platform TEXT NOT NULL, text TEXT NOT NULL
-    );
-    CREATE TABLE runs (
-        name TEXT PRIMARY KEY, stamp INTEGER NOT NULL, utc REAL NOT NULL, kind TEXT NOT NULL,
-        made_at TEXT NOT NULL, platform TEXT NOT NULL, configuration TEXT NOT NULL,
-        method TEXT NOT NULL, bench TEXT NOT NULL, outcome TEXT NOT NULL, sentence TEXT NOT NULL,
-        provenance TEXT NOT NULL
-    );
-    CREATE TABLE estimates (
-        run TEXT NOT NULL REFERENCES runs (name) ON DELETE CASCADE, part TEXT NOT NULL,
-        place INTEGER NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, value REAL, sd REAL,
-        observable INTEGER NOT NULL, PRIMARY KEY (run, part, place)
-    );
-    """,
-    """
-    ALTER TABLE runs ADD COLUMN temperature REAL;
-    CREATE INDEX runs_by_time ON runs (utc);
-    CREATE INDEX runs_by_platform ON runs (platform, utc);
-    """,
-)
-
-
-def migrate(index: sqlite3.Connection, source: str) -> None:
-    """Bring an index to today's version, in one transaction.
-
-    Raises InputError for one that is newer than this program.
-    """
-    index.execute("BEGIN IMMEDIATE")  # of two programs one waits, and finds the work done
-    try:
-        (version,) = index.execute("PRAGMA user_version").fetchone()
-        if version > len(MIGRATIONS):
-            wanted = f"an index of version {len(MIGRATIONS)} or older: update equipoise"
-            raise InputError(source, f"version {version}", wanted)
-        for script in MIGRATIONS[version:]:
-            for statement in filter(str.strip, script.split(";")):
-                index.execute(statement)
-        index.execute(f"PRAGMA user_version = {len(MIGRATIONS)}")
-        index.execute("COMMIT")
-    except BaseException:
-        index.execute("ROLLBACK")
-        raise

@@ -7,6 +7,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
+from equipoise.app.dashboard.protocol import data_folder
 from equipoise.app.dashboard.protocol.data_folder import recordings, within
 from equipoise.app.dashboard.server.authorisation import Guard, new_token
 from equipoise.app.dashboard.server.gate import COOKIE, LARGEST, SOCKETS, Doors, Gate
@@ -277,6 +278,8 @@ def folder(tmp_path):
     (made / "recordings" / "a.mcap").write_text("a")
     (made / "run").mkdir()
     (made / "run" / "recording.csv").write_text("b")
+    (made / "2026-11" / "run").mkdir(parents=True)
+    (made / "2026-11" / "run" / "recording.csv").write_text("c")
     (tmp_path / "secret.csv").write_text("secret")
     (made / "link.csv").symlink_to(tmp_path / "secret.csv")
     return made
@@ -284,7 +287,19 @@ def folder(tmp_path):
 
 def test_files_within_the_data_folder(folder):
     assert within(folder, "recordings/a.mcap").read_text() == "a"
-    assert set(recordings(folder)) == {"recordings/a.mcap", "run/recording.csv"}
+    kept = {"run/recording.csv", "2026-11/run/recording.csv"}
+    assert set(recordings(folder)) == {"recordings/a.mcap", *kept}
+
+
+def test_of_many_runs_the_last_recordings_are_offered(folder, monkeypatch):
+    """Names begin with their time: of months and of runs the last by name come first."""
+    monkeypatch.setattr(data_folder, "LAST", 3)
+    for name in ("2026-11/0", "2026-12/1", "2026-12/0"):
+        (folder / name).mkdir(parents=True)
+        (folder / name / "recording.csv").write_text("d")
+    offered = {"2026-12/1", "2026-12/0", "2026-11/run"}
+    assert set(recordings(folder)) == {
+        "recordings/a.mcap", *(f"{name}/recording.csv" for name in offered)}  # fmt: skip
 
 
 OUTSIDE = ("../secret.csv", "run/../../secret.csv", "/etc/passwd", "link.csv", "missing.csv", "",

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.app.console.crash_file import crash_of
-from equipoise.app.logbook.run_folder import own_folder
+from equipoise.app.logbook.run_folder import name_of, own_folder
 from equipoise.app.report.run_record import Output
 from equipoise.app.report.write import write_output
 from equipoise.app.runs.balancing import Balancing
@@ -104,4 +104,4 @@ def _written(output: Output, testbed: Testbed) -> str | None:
     if folder is None:
         return None
     write_output(output, folder)
-    return folder.name
+    return name_of(folder)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from datetime import datetime
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,10 +15,20 @@ from equipoise.model.units import UM
 CAPTION = (
     "Centre of mass (um) and moments of inertia (kg m2) with the masses at home, run by run, with "
     "bars of two standard deviations; dashed: the testbed file changed. On the right, if it was "
-    "recorded: against temperature."
+    "recorded: against temperature. Many runs are drawn in groups: line and shade are the median "
+    "and the middle 95 % of what the runs of a group found."
 )
 LABELS = ("$r_x$, um", "$r_y$, um", "$r_z$, um", "$J_{xx}$", "$J_{yy}$", "$J_{zz}$")
 SIZES = np.array([UM, UM, UM, 1.0, 1.0, 1.0])
+
+
+class Band(NamedTuple):
+    """What groups of runs found: a row for each group."""
+
+    at: Any  # numpy datetime64, or degC
+    low: Series1  # m, kg m^2
+    middle: Series1
+    high: Series1
 
 
 class Trend(NamedTuple):
@@ -30,6 +40,8 @@ class Trend(NamedTuple):
     sd: Series  # (n, 6)
     builds: Sequence[str]  # a letter for the testbed file of each
     temperature: Series1  # degC; NaN: not recorded
+    over_time: Sequence[Band] = ()  # of the six values, in place of single runs; empty: these
+    over_temperature: Sequence[Band] = ()
 
 
 @styled
@@ -43,11 +55,11 @@ def draw(trend: Trend) -> Figure:
     grid = figure.subplots(6, len(ratios), squeeze=False, sharey="row", sharex="col",
                            width_ratios=ratios)  # fmt: skip
     for i, row in enumerate(grid):
-        _points(row[0], np.array(trend.times), trend, i)
+        _runs(row[0], np.array(trend.times), trend, trend.over_time, i)
         row[0].set_ylabel(LABELS[i])
         _mark_builds(row[0], trend, named=i == 0)
         if warm:
-            _points(row[1], trend.temperature, trend, i)
+            _runs(row[1], trend.temperature, trend, trend.over_temperature, i)
     locator = AutoDateLocator()
     grid[-1][0].xaxis.set_major_locator(locator)
     grid[-1][0].xaxis.set_major_formatter(ConciseDateFormatter(locator))
@@ -58,7 +70,16 @@ def draw(trend: Trend) -> Figure:
     return figure
 
 
-def _points(axes: Axes, x: Series1, trend: Trend, i: int) -> None:
+def _groups(axes: Axes, band: Band, i: int) -> None:
+    low, middle, high = (each / SIZES[i] for each in (band.low, band.middle, band.high))
+    axes.fill_between(band.at, low, high, color=XYZ[i % 3], alpha=0.2, linewidth=0)
+    axes.plot(band.at, middle, color=XYZ[i % 3])
+
+
+def _runs(axes: Axes, x: Series1, trend: Trend, bands: Sequence[Band], i: int) -> None:
+    if bands:
+        _groups(axes, bands[i], i)
+        return
     y, spread = trend.values[:, i] / SIZES[i], BAND * trend.sd[:, i] / SIZES[i]
     axes.errorbar(
         x, y, spread, fmt="o", color=XYZ[i % 3], markersize=4, markerfacecolor="white",
