@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import zstandard
 
-from equipoise.app.runs.captured_bytes import recording_of_capture
+from equipoise.app.runs.captures.captured_bytes import recording_of_capture
 from equipoise.hardware.camera.eye import eye_of
 from equipoise.hardware.emulated.registry import SENSORS
 from equipoise.io.columns.column_map_file import read_column_map

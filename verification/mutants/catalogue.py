@@ -62,13 +62,13 @@ MATHS = _of(
      "maths/test_levenberg_marquardt.py"),
     ("scaled_solve.py", "scale[i] * normal[i, i] * scale[i] + damping",
      "scale[i] * normal[i, i] * scale[i]", "maths/test_scaled_solve.py"),
-    ("whiteness.py", "chdtrc(LAGS * Q.size,", "chdtrc(LAGS,", "maths/test_whiteness.py"),
+    ("whiteness.py", "chi_square_chance(LAGS * Q.size,", "chi_square_chance(LAGS,", "maths/test_whiteness.py"),
     ("gaussian_length.py", "SURE = 0.975", "SURE = 0.9", "maths/test_gaussian_length.py"),
     ("gaussian_length.py", "sure_distance(z, g + curvature * at, curvature)",
      "sure_distance(z, g - curvature * at, curvature)", "maths/test_gaussian_length.py"),
-    ("kernel_cache.py", "sha256(content(path)).digest()", 'b""',
+    ("kernels/kernel_cache.py", "sha256(content(path)).digest()", 'b""',
      "maths/kernels/test_kernel_cache.py"),
-    ("returned_in_c.py", "ours = context.env_manager", "ours = not context.env_manager",
+    ("kernels/returned_in_c.py", "ours = context.env_manager", "ours = not context.env_manager",
      "maths/kernels/test_interrupted_kernels.py"),
 )  # fmt: skip
 

@@ -40,8 +40,8 @@ from equipoise.dynamics.sensitivities import (
     work_for,
 )
 from equipoise.dynamics.timeline import Timeline
-from equipoise.maths.copying import copy_values
 from equipoise.maths.kernels.compiled import kernel, part
+from equipoise.maths.kernels.copying import copy_values
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Triple, Vector3, Vector6
 from equipoise.model.mass_properties import MassProperties

@@ -19,8 +19,8 @@ import numpy as np
 from equipoise.dynamics.propagation import NO_COLUMNS, evaluate, step
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at
 from equipoise.dynamics.sensitivities import Columns, Inputs, work_for
-from equipoise.maths.copying import copy_values
 from equipoise.maths.kernels.compiled import kernel, part
+from equipoise.maths.kernels.copying import copy_values
 from equipoise.model.arrays import Floats, Ints, Triple
 from equipoise.simulation.stop import NO_STOP, Stop, is_beyond
 from equipoise.simulation.striking import Course, lay, strike

@@ -12,8 +12,8 @@ from typing import NamedTuple
 from equipoise.dynamics.propagation import step
 from equipoise.dynamics.rigid_body import Body, body_at
 from equipoise.dynamics.sensitivities import Inputs, Work
-from equipoise.maths.copying import copy_values
 from equipoise.maths.kernels.compiled import kernel, part
+from equipoise.maths.kernels.copying import copy_values
 from equipoise.model.arrays import Floats
 from equipoise.simulation.stop import (
     STILL,

@@ -43,7 +43,7 @@ def calibrate_camera(
     """
     from equipoise.app.arguments.checks import positive
     from equipoise.app.console.rich_blocks import show
-    from equipoise.app.runs.lens_calibration import lens_from_files
+    from equipoise.app.runs.captures.lens_calibration import lens_from_files
     from equipoise.app.text.blocks import paragraphs
     from equipoise.hardware.camera.aruco import Charuco
     from equipoise.hardware.camera.eye import settings_of_lens

@@ -107,8 +107,8 @@ def _replayed(file: str, driver: str, captured: Captured, reading: Reading) -> "
     """Return the rows that a driver reads in a file, or the part that is asked for."""
     from equipoise.app.arguments.checks import positive
     from equipoise.app.arguments.inputs import memory_of, part_of, testbed_from
-    from equipoise.app.runs.captured_bytes import recording_of_capture
-    from equipoise.app.runs.captured_sensor import Stated, unit_of
+    from equipoise.app.runs.captures.captured_bytes import recording_of_capture
+    from equipoise.app.runs.captures.captured_sensor import Stated, unit_of
     from equipoise.io.files.reading_budget import ReadingBudget
     from equipoise.model.errors import InputError
 

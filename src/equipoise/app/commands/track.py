@@ -8,7 +8,7 @@ from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import announced, counted, show_paths
 
 if TYPE_CHECKING:
-    from equipoise.app.runs.camera_tracking import Track
+    from equipoise.app.runs.captures.camera_tracking import Track
     from equipoise.app.text.blocks import Blocks
     from equipoise.model.arrays import Vector3
 

@@ -61,8 +61,8 @@ from equipoise.estimation.parameters.retraction import (
     retract,
     step_work_for,
 )
-from equipoise.maths.copying import copy_rows, copy_values
 from equipoise.maths.kernels.compiled import kernel, part
+from equipoise.maths.kernels.copying import copy_rows, copy_values
 from equipoise.maths.levenberg_marquardt import FREE, NEAR, judge, promise, tolerated
 from equipoise.model.arrays import Floats, Ints
 

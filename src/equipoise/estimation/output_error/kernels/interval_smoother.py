@@ -30,8 +30,8 @@ from equipoise.estimation.output_error.kernels.segments import (
     chain_for,
     count_free,
 )
-from equipoise.maths.copying import copy_rows, copy_values
 from equipoise.maths.kernels.compiled import kernel, part
+from equipoise.maths.kernels.copying import copy_rows, copy_values
 from equipoise.model.arrays import Floats, Ints
 
 

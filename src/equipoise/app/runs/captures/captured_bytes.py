@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from os import SEEK_CUR
 
-from equipoise.app.runs.captured_sensor import STREAM
+from equipoise.app.runs.captures.captured_sensor import STREAM
 from equipoise.hardware.links.captured_rows import CapturedRows, Timeless
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.row_buffer import RowBuffer

@@ -1,0 +1,1 @@
+"""From pictures, videos and captured bytes to recordings and lenses."""
