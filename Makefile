@@ -147,7 +147,7 @@ $(VENDORED): web/package-lock.json web/package.json | $(RUN)
 
 COMPILE := uv pip compile pyproject.toml --quiet --universal --python-version 3.11 \
 	--generate-hashes --no-annotate --no-header --no-emit-index-url --no-emit-find-links
-EXTRAS := $(foreach extra,analysis parquet excel matlab hardware mavlink camera logs report dashboard,--extra $(extra))
+EXTRAS := $(foreach extra,analysis parquet excel matlab hardware mavlink camera logs report dashboard cluster,--extra $(extra))
 # Blocks of the second file whose name==version is (wanted=1) or is not (wanted=0) in the first.
 PICK := awk 'NR == FNR { first[$$1]; next } \
 	!/^ / { keep = (($$1 in first) == wanted) } keep'
