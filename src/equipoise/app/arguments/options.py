@@ -32,6 +32,13 @@ Listed = Annotated[tuple[str, ...], Parameter(show_default=False, consume_multip
 Triple = Annotated[tuple[float, float, float], Parameter(show_default=_plain)]
 Several = Annotated[tuple[float, ...], Parameter(show_default=_plain, consume_multiple=True)]
 Whole = Annotated[int, Parameter(converter=_whole)]
+On = Annotated[
+    str,
+    Parameter(
+        help="Where to run: local, in processes of this computer; dask-local, in a Dask cluster "
+        "begun for it; or dask://HOST:PORT, on a scheduler that runs, with all its workers."
+    ),
+]
 
 
 @Parameter(name="*")

@@ -11,7 +11,7 @@ from equipoise.app.console.terminal import (
     busy,
     counted,
     say_what_is_done,
-    spread_over,
+    counted_pieces,
     watched,
 )
 from equipoise.app.live.status_block import TerminalView, watched_by
@@ -33,7 +33,7 @@ def budget_at_terminal(searching: Searching) -> Budget:
     return budget_of(positive("--budget-s", searching.budget_s), show_stage)
 
 
-AT_TERMINAL = Waiting(watched, busy, counted, spread_over)
+AT_TERMINAL = Waiting(watched, busy, counted, counted_pieces)
 
 
 def at_terminal(testbed: Testbed) -> Through:
