@@ -8,6 +8,7 @@ chunks are single pieces, and none has more than twice as many as the one before
 may take longer, since kernels are loaded for it.
 """
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -17,6 +18,7 @@ from equipoise.model.version import __version__
 
 LEAST = 0.1  # s, chosen: a hundred times what it costs to send a chunk to a process
 EACH = 2e-3  # s a worker, chosen: at most 500 chunks a second, all workers together
+SHORTEST = 1e-9  # s: no piece takes less
 FRESH = 0.5  # chosen: weight of the latest chunk in the time that a piece takes
 
 
@@ -43,7 +45,7 @@ class Pace:
         """Return how many pieces are worth sending to one of so many workers."""
         if self._each is not None:
             wanted = max(LEAST, EACH * workers)
-            fitting = int(wanted / max(self._each, 1e-9)) + 1
+            fitting = math.ceil(wanted / max(self._each, SHORTEST))
             self._size = min(fitting, 2 * self._size)
         return self._size
 

@@ -44,7 +44,7 @@ def dask_here(count: int) -> Generator[Pool]:
     distributed = _distributed("dask-local")
     with (
         distributed.LocalCluster(
-            n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None
+            n_workers=count, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0"
         ) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
         _lent(client) as pool,

@@ -128,7 +128,14 @@ def first_difference(before: Any, now: Any, where: str = "") -> str:
         named = {key: "" if key in KINDS else f" {key}" for key in before}
         pairs = [(where + named[key], before[key], now[key]) for key in before]
     elif isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
-        pairs = [(where, *each) for each in zip(before, now, strict=True)]
+        place = where + named_by(now) if named_by(before) == named_by(now) else where
+        pairs = [(place, *each) for each in zip(before, now, strict=True)]
     else:
         return f"{where.strip()}: {before} there, {now} here"
     return next(first_difference(b, n, place) for place, b, n in pairs if b != n)
+
+
+def named_by(content: list[Any]) -> str:
+    """Return the key of a pair of key and value, as a part of a place; nothing of another list."""
+    is_pair = len(content) == 2 and isinstance(content[0], str) and ":" not in content[0]
+    return f" {content[0]}" if is_pair else ""
