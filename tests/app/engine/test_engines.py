@@ -100,7 +100,10 @@ def test_a_dask_worker_of_several_threads_is_refused():
     """Its kernels would wait for each other, and its times be those of all."""
     with (
         LocalCluster(
-            n_workers=1, threads_per_worker=2, processes=False, protocol="tcp://",
+            n_workers=1,
+            threads_per_worker=2,
+            processes=False,
+            protocol="tcp://",
             dashboard_address="127.0.0.1:0",
         ) as here,
         pytest.raises(InputError, match="a worker with 2 threads"),
@@ -153,11 +156,17 @@ def test_a_process_that_ends_suddenly_is_reported():
 
 def test_an_error_ends_workers_that_have_long_work_at_once():
     """Nobody waits for ten minutes here; of Ctrl-C it is the same."""
-    with pytest.raises(KeyboardInterrupt), worker_processes(2) as pool:
-        workers = set(spread_over(pool)(process, range(4)))
-        for _ in range(2):
-            pool.executor.submit(many_pieces.lasting, 0)
-        raise KeyboardInterrupt
+    workers = set[int]()
+
+    def interrupted():
+        with worker_processes(2) as pool:
+            workers.update(spread_over(pool)(process, range(4)))
+            for _ in range(2):
+                pool.executor.submit(many_pieces.lasting, 0)
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
     until(lambda: not any(is_alive(each) for each in workers))
 
 
@@ -196,5 +205,5 @@ def test_long_pieces_go_one_by_one():
 
 
 def test_a_worker_of_another_version_does_nothing():
-    with pytest.raises(InputError, match="found equipoise .*; wanted 0.0.1, as who sends"):
+    with pytest.raises(InputError, match=r"found equipoise .*; wanted 0.0.1, as who sends"):
         chunk_done("0.0.1", many_pieces.ending, [0], [0])

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from equipoise.app.engine.kept_results import KeptResults
+from equipoise.app.engine.pool import HERE
 from equipoise.app.engine.record_text import text_of, value_of
 from equipoise.app.engine.spread import spread_over
 from equipoise.app.engine.worker_processes import worker_processes
@@ -77,8 +78,6 @@ def run_of(kept, pieces=FEW):
         done.append(piece[1])
         return pair_of(piece)
 
-    from equipoise.app.engine.pool import HERE
-
     return list(spread_over(HERE, kept=kept)(work, pieces)), done
 
 
@@ -125,9 +124,9 @@ def test_results_of_another_question_are_refused_and_never_counted(tmp_path):
         return KeptResults(tmp_path / name, question | changed, key, print)
 
     run_of(kept("one"))
-    with pytest.raises(InputError, match=r"another question \(question duration: 30.0 there, 31"):
+    with pytest.raises(InputError, match=r"another question \(duration: 30.0 there, 31"):
         kept("one", duration=31.0)
-    with pytest.raises(InputError, match="question options hold: com_x there, com_y here"):
+    with pytest.raises(InputError, match="options hold: com_x there, com_y here"):
         kept("one", options={"hold": ("com_y",)})
     other = kept("two", duration=31.0)
     for file in (tmp_path / "one").glob("results-*.parquet"):
@@ -140,8 +139,6 @@ def test_an_error_leaves_what_was_done_on_the_disk(tmp_path):
         if piece[1] == 30:
             raise ZeroDivisionError
         return pair_of(piece)
-
-    from equipoise.app.engine.pool import HERE
 
     with pytest.raises(ZeroDivisionError):
         list(spread_over(HERE, kept=kept_in(tmp_path))(work, FEW))

@@ -1,6 +1,7 @@
 """`equipoise balance`: estimate, move, estimate again, until the verdict passes."""
 
 from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -8,6 +9,7 @@ from equipoise.app.arguments.options import (
     USUAL,
     WHOLE,
     Json,
+    On,
     Reading,
     Searching,
     Triple,
@@ -22,10 +24,11 @@ from equipoise.app.commands.by_hand import (
     is_by_hand,
 )
 from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, let_go, prepare
-from equipoise.app.console.terminal import announced, busy, counted
+from equipoise.app.console.terminal import announced, busy, counted_pieces
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
+    from equipoise.app.engine.pool import Engine
     from equipoise.app.runs.balancing import Balancing, Goal, Limits
     from equipoise.model.arrays import Vector3
     from equipoise.model.testbed import Testbed
@@ -40,6 +43,8 @@ def balance(
     law: str = "measure_and_move",
     seed: Whole = 1,
     series: Whole | None = None,
+    workers: Whole = 1,
+    on: On = "local",
     plan: Path | None = None,
     target_um: Triple = (0.0, 0.0, -100.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
@@ -71,6 +76,8 @@ def balance(
     series
         Balance the simulated platform that the seed draws so many times; the seeds of the runs
         follow the first. The folder gets run_01.csv and so on, what each run recorded.
+    workers
+        Processes to spread the runs of a series over.
     plan
         Plan file: begin with its manoeuvre, then balance on all that was recorded. Of
         measure_and_move alone, without a hold.
@@ -91,6 +98,7 @@ def balance(
     """
     from equipoise.app.arguments.checks import check_outputs, one_of, seed_of
     from equipoise.app.arguments.inputs import plan_from, testbed_from
+    from equipoise.app.arguments.many_runs import check_one_piece, engine_from
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
@@ -102,7 +110,9 @@ def balance(
 
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
-    runs = _runs(series, on_bench)
+    runs, engine = _runs(series, on_bench), engine_from(on, workers)
+    if runs is None:
+        check_one_piece(on, workers, "--series, whose runs are spread")
     bed, seed = announced(testbed_from(testbed)), seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed).manoeuvre
     check_outputs(out)
@@ -116,7 +126,7 @@ def balance(
         budget = budget_at_terminal(searching)
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned, budget)
     if runs is not None:
-        return _series(bed, Goal(*where), limits, (runs, seed), json=json, out=out)
+        return _series(bed, Goal(*where), limits, (runs, seed), engine=engine, json=json, out=out)
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
     hand_over_run(output_of(done), json, out, bed.name)
     if done.stopped_with is not None:
@@ -139,16 +149,19 @@ def _series(
     limits: "Limits",
     seeds: tuple[int, int],
     *,
+    engine: "Engine",
     json: bool,
     out: Path | None,
 ) -> int:
     """Balance one simulated platform several times."""
+    from equipoise.app.engine.spread import spread_over
     from equipoise.app.logbook.output import hand_over_run
     from equipoise.app.runs.balance_series import run_series
     from equipoise.app.views.balance_series_views import output_of
 
-    with counted(f"balancing {seeds[0]} runs") as progress:
-        done = run_series(bed, goal, limits, seeds, progress)
+    with engine() as pool:
+        spread = spread_over(pool, partial(counted_pieces, f"balancing {seeds[0]} runs"))
+        done = run_series(bed, goal, limits, seeds, spread)
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.verdict.passed else 1
 

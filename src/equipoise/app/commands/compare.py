@@ -107,15 +107,15 @@ def compare(
     """
     from equipoise.app.arguments.checks import check_outputs, duration_of, positive, seed_of
     from equipoise.app.arguments.inputs import move_of, options_of, testbed_from
+    from equipoise.app.arguments.many_runs import engine_from
 
     bed, first = announced(testbed_from(testbed)), seed_of(seed)
     seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
     duration = duration_of("--duration-s", duration_s, bed)
-    many = int(positive("--workers", workers))
+    engine = engine_from(on, workers)
     check_outputs(out)
     with busy("preparing", announce=False):
-        from equipoise.app.engine.choice import engine_of
         from equipoise.app.engine.running import Running
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.comparison import Contest, names_of, run_all
@@ -126,7 +126,7 @@ def compare(
         options = options_of(seeking, budget_at_terminal(searching))
         goal, names = _goal(judging), names_of(bed, only, methods, laws)
         scene = Scene(bed, duration, moves, options)
-        running = Running(engine_of(on, many), resume, notice)
+        running = Running(engine, resume, notice)
     done = run_all(Contest(names, scene, seeds, goal), running, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     return _code(done)

@@ -10,9 +10,11 @@ from equipoise.app.arguments.options import (
     WHOLE,
     Flag,
     Json,
+    On,
     Reading,
     Searching,
     Seeking,
+    Whole,
 )
 from equipoise.app.console.terminal import busy
 from equipoise.model.errors import InputError
@@ -20,6 +22,8 @@ from equipoise.model.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from equipoise.app.engine.pool import Engine
+    from equipoise.app.runs.plausible_record import Gate
     from equipoise.model.finding import Finding
     from equipoise.model.manoeuvre import Plan
     from equipoise.model.recording import Recording
@@ -36,6 +40,8 @@ def identify(
     robust: Flag = False,
     force: Flag = False,
     plan: Path | None = None,
+    workers: Whole = 1,
+    on: On = "local",
     seeking: Seeking = NOTHING_STATED,
     searching: Searching = USUAL,
     reading: Reading = WHOLE,
@@ -67,6 +73,8 @@ def identify(
     plan
         Plan file that the recording was made by: what it predicted is compared with what is found.
         Of one recording.
+    workers
+        Processes to spread several recordings over, each of which is first fitted by itself.
     out
         Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """
@@ -77,14 +85,19 @@ def identify(
         plan_from,
         testbed_from,
     )
+    from equipoise.app.arguments.many_runs import check_one_piece, engine_from
 
     bed, of_fit = testbed_from(testbed), options_of(seeking)
     check_outputs(out)
     if more and plan is not None:
         raise InputError("--plan", "several recordings", "the one that was made by the plan")
+    engine = engine_from(on, workers)
+    if not more:
+        check_one_piece(on, workers, "several recordings")
     recordings = [fitting_recording_of(each, reading, bed) for each in (file, *more)]
     planned = None if plan is None else plan_from(plan, bed)
     with busy("identifying", announce=False):
+        from equipoise.app.runs.plausible_record import Gate
         from equipoise.app.runs.terminal_waiting import budget_at_terminal
         from equipoise.estimation.methods.registry import METHODS
         from equipoise.procedure.identification.identify import IdentifyOptions
@@ -93,7 +106,8 @@ def identify(
     budget = budget_at_terminal(searching)
     options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust, budget)
     if more:
-        return _jointly(recordings, bed, options, force=force, json=json, out=out)
+        gate = Gate(force)
+        return _jointly(recordings, bed, options, engine, gate, json=json, out=out)
     return _from_one(recordings[0], bed, options, planned, force=force, json=json, out=out)
 
 
@@ -131,19 +145,22 @@ def _jointly(
     recordings: "Sequence[Recording]",
     bed: "Testbed",
     options: "IdentifyOptions",
+    engine: "Engine",
+    gate: "Gate",
     *,
-    force: bool,
     json: bool,
     out: Path | None,
 ) -> int:
     """Identify from several recordings of one platform."""
     with busy("identifying", announce=False):
+        from equipoise.app.engine.spread import spread_over
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.joint_identification import run
-        from equipoise.app.runs.plausible_record import Gate
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.views.identify_runs_views import output_of
 
-    done = run(recordings, bed, options, AT_TERMINAL, Gate(force))
+    with engine() as pool:
+        waiting = replace(AT_TERMINAL, spread=spread_over(pool))
+        done = run(recordings, bed, options, waiting, gate)
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.estimate.outcome.usable and done.verdict.passed else 1

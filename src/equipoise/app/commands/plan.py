@@ -1,5 +1,6 @@
 """`equipoise plan`: the most informative manoeuvre."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -7,6 +8,7 @@ from equipoise.app.arguments.options import (
     NOTHING_STATED,
     WHOLE,
     Json,
+    On,
     Reading,
     Seeking,
     Whole,
@@ -32,6 +34,8 @@ def plan(
     seeking: Seeking = NOTHING_STATED,
     trials: Whole = 2400,
     seed: Whole = 1,
+    workers: Whole = 1,
+    on: On = "local",
     write: Path | None = None,
     json: Json = False,
     out: Path | None = None,
@@ -63,6 +67,8 @@ def plan(
         How many manoeuvres to try.
     seed
         Seed of the search and of the platforms: the same seed plans the same.
+    workers
+        Processes to spread the trials over.
     write
         Plan file to write; simulate, identify and balance take it with --plan.
     out
@@ -75,16 +81,18 @@ def plan(
         options_of,
         testbed_from,
     )
+    from equipoise.app.arguments.many_runs import engine_from
     from equipoise.model.units import DEG, in_si
 
     bed, requested = announced(testbed_from(testbed)), options_of(seeking)
     duration = checks.duration_of("--duration-s", duration_s, bed)
     rate = in_si(checks.positive("--max-rate-deg-s", max_rate_deg_s), DEG)
     count = int(checks.not_negative("--moves", moves))
-    tries = int(checks.positive("--trials", trials))
+    tries, engine = int(checks.positive("--trials", trials)), engine_from(on, workers)
     checks.check_outputs(out, write)
     check_of_recording(reading, prior_record, "--prior-record")
     earlier = None if prior_record is None else fitting_recording_of(prior_record, reading, bed)
+    from equipoise.app.engine.spread import spread_over
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.runs.planning import Request, run
     from equipoise.app.runs.terminal_waiting import AT_TERMINAL
@@ -94,7 +102,8 @@ def plan(
     request = Request(
         bed, duration, quantity, criterion, count, rate, requested, earlier, tries, drawn
     )
-    done = run(request, AT_TERMINAL)
+    with engine() as pool:
+        done = run(request, replace(AT_TERMINAL, spread=spread_over(pool)))
     hand_over(output_of(done), json, out)
     if write is not None:
         _write(done.plan, bed, write, json)

@@ -152,13 +152,18 @@ def counted(what: str) -> "Generator[Callable[[float], None]]":
     """Show progress on stderr; the function that is yielded takes the share that is done."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeElapsedColumn
 
+    columns = (_described(), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=_announcing(what), transient=True) as progress:
+        bar = progress.add_task(for_terminal(what), total=1.0)
+        yield lambda share: progress.update(bar, completed=share)
+
+
+def _announcing(what: str) -> "Console":
+    """Return the console for progress; cut off from a terminal it says once what is done."""
     console = stderr()
     if not console.is_terminal:
         console.print(f"{what} ...")
-    columns = (_described(), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as progress:
-        bar = progress.add_task(for_terminal(what), total=1.0)
-        yield lambda share: progress.update(bar, completed=share)
+    return console
 
 
 def _described() -> "TextColumn":
@@ -173,12 +178,12 @@ def counted_pieces(what: str) -> "Generator[Callable[[int, int], None]]":
     """Show on stderr how many pieces of work are done, at what rate, and the time that is left.
 
     The function that is yielded takes how many are done and of how many; what it takes first was
-    there before. Cut off from a terminal nothing is shown.
+    there before.
     """
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
     columns = (_described(), BarColumn(), MofNCompleteColumn(), _rate(), TimeRemainingColumn())
-    with Progress(*columns, console=stderr(), transient=True) as progress:
+    with Progress(*columns, console=_announcing(what), transient=True) as progress:
         bar: TaskID | None = None
 
         def report(done: int, total: int) -> None:

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
-from equipoise.app.engine.record_text import KINDS, plain, text_of, value_of
+from equipoise.app.engine.record_text import KINDS, Plain, plain, text_of, value_of
 from equipoise.io.files.atomic_file import check_folder, write_whole
 from equipoise.io.files.file_content import opened
 from equipoise.io.formats.parquet_table import parquet_of_cells, read_parquet
@@ -33,6 +33,7 @@ PATTERN = "results-*.parquet"
 COLUMNS = ("question", "key", "result")
 SHARE = 0.01  # of the time since the beginning, chosen: what is lost at most when it is ended
 SOONEST, LONGEST = 0.1, 10.0  # s, chosen: a chunk; what a person would wait for again
+PAIR = 2  # a key and its value
 WHOLE = "a file of results of the same question"
 
 
@@ -51,7 +52,7 @@ class KeptResults:
         ``notice`` receives what is to be said of files that cannot be read.
         """
         self._folder, self._key, self._notice = folder, key, notice
-        stated = {"version": __version__, "question": {k: plain(each) for k, each in question.items()}}
+        stated = {"version": __version__} | {k: plain(each) for k, each in question.items()}
         text = json.dumps(stated, indent=1)
         self._digest = hashlib.sha256(text.encode()).hexdigest()
         check_folder(folder)
@@ -60,7 +61,7 @@ class KeptResults:
         self._check(stated, folder / QUESTION, text)
 
     def _check(self, stated: Any, path: Path, text: str) -> None:
-        """Write the question down, or compare it with the one that is."""
+        """Write the question down, or compare it with the one that is there."""
         if not path.exists():
             write_whole(path, text)
         elif (before := path.read_text(encoding="utf-8")) != text:
@@ -105,8 +106,11 @@ class KeptResults:
     def _write(self, waiting: list[tuple[str, str]]) -> None:
         """Write what waits into a file of its own."""
         if waiting:
-            keys, results = zip(*waiting, strict=True)
-            columns = dict(zip(COLUMNS, ([self._digest] * len(keys), keys, results), strict=True))
+            columns: dict[str, list[str]] = {
+                "question": [self._digest] * len(waiting),
+                "key": [key for key, _ in waiting],
+                "result": [result for _, result in waiting],
+            }
             path = self._folder / f"results-{uuid4().hex[:8]}.parquet"
             write_whole(path, parquet_of_cells(columns, str(path)))
             waiting.clear()
@@ -122,20 +126,24 @@ def _read(path: Path) -> Iterator[tuple[str, ...]]:
             yield tuple(table.cell(name, row) for name in COLUMNS)
 
 
-def first_difference(before: Any, now: Any, where: str = "") -> str:
+def first_difference(before: Plain, now: Plain, where: str = "") -> str:
     """Return where two questions differ first, and what stands there."""
     if isinstance(before, dict) and isinstance(now, dict) and before.keys() == now.keys():
-        named = {key: "" if key in KINDS else f" {key}" for key in before}
-        pairs = [(where + named[key], before[key], now[key]) for key in before]
+        pairs = [(where + _part(key), before[key], now[key]) for key in before]
     elif isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
-        place = where + named_by(now) if named_by(before) == named_by(now) else where
-        pairs = [(place, *each) for each in zip(before, now, strict=True)]
+        place = where + (_key(now) if _key(before) == _key(now) else "")
+        pairs = [(place, b, n) for b, n in zip(before, now, strict=True)]
     else:
         return f"{where.strip()}: {before} there, {now} here"
     return next(first_difference(b, n, place) for place, b, n in pairs if b != n)
 
 
-def named_by(content: list[Any]) -> str:
+def _part(key: str) -> str:
+    """Return a key as a part of a place; a kind of content is none."""
+    return "" if key in KINDS else f" {key}"
+
+
+def _key(content: list[Plain]) -> str:
     """Return the key of a pair of key and value, as a part of a place; nothing of another list."""
-    is_pair = len(content) == 2 and isinstance(content[0], str) and ":" not in content[0]
-    return f" {content[0]}" if is_pair else ""
+    first = content[0] if len(content) == PAIR else None
+    return f" {first}" if isinstance(first, str) and ":" not in first else ""

@@ -6,7 +6,7 @@ JSON, in which a list stands for itself, and an object with one key for whatever
     {"number": [dtype, value]}, {"enum": [class, name]}, {"record": [class, {field: value}]},
     {"named": "module:name"}, {"partial": [function, [arguments], {keywords}]}
 
-Floats are written with as many digits as they need. A class is one of this program; nothing else is
+Floats are written with as many digits as they need. A class is one of this program: nothing else is
 ever made from a text, and nothing is run. Functions and partial ones are written, not read back:
 they are part of a question, and of no result.
 """
@@ -15,15 +15,16 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
-from functools import partial
+from functools import partial, singledispatch
 from importlib import import_module
 from types import FunctionType
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 
 PROGRAM = "equipoise"
-Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
+Plain: TypeAlias = "bool | int | float | str | list[Plain] | dict[str, Plain] | None"
+ITSELF = (bool, int, float, str, type(None))  # as JSON has it
 
 
 def text_of(value: object) -> str:
@@ -38,57 +39,84 @@ def value_of(text: str) -> Any:
 
 def plain(value: Any) -> Plain:
     """Return a value as JSON has it."""
-    if value is None or type(value) in (bool, int, float, str):
+    if type(value) in ITSELF:
         return value
-    if isinstance(value, list):
-        return [plain(each) for each in value]
+    if type(value) is list:
+        return _plain_list(cast("list[Any]", value))
     kind, content = _described(value)
     return {kind: content}
 
 
+def _plain_list(values: Any) -> list[Plain]:
+    return [plain(each) for each in values]
+
+
+@singledispatch
 def _described(value: Any) -> tuple[str, Plain]:
     """Return kind and content of what JSON lacks."""
-    if isinstance(value, Enum):
-        return "enum", [_name(type(value)), value.name]
-    if isinstance(value, np.ndarray):
-        return "array", [value.dtype.str, list(value.shape), value.ravel().tolist()]
-    if isinstance(value, np.generic):
-        return "number", [value.dtype.str, value.item()]
-    if isinstance(value, tuple) and hasattr(value, "_fields"):
-        return "record", [_name(type(value)), {k: plain(v) for k, v in value._asdict().items()}]
-    if isinstance(value, tuple):
-        return "tuple", [plain(each) for each in value]
-    if isinstance(value, Mapping):
-        return "dict", [[plain(key), plain(each)] for key, each in value.items()]
-    return _of_program(value)
+    if not is_dataclass(value):
+        raise TypeError(f"{type(value).__name__} cannot be kept as text")
+    content = {each.name: plain(getattr(value, each.name)) for each in fields(value)}
+    return "record", [_name(type(value)), content]
 
 
-def _of_program(value: Any) -> tuple[str, Plain]:
-    """Return kind and content of a record, or of a function."""
-    if is_dataclass(value) and not isinstance(value, type):
-        content = {f.name: plain(getattr(value, f.name)) for f in fields(value)}
-        return "record", [_name(type(value)), content]
-    if isinstance(value, partial):
-        return "partial", [plain(value.func), plain(list(value.args)), plain(value.keywords)]
-    if isinstance(value, (type, FunctionType)):
-        return "named", _name(value)
-    raise TypeError(f"{type(value).__name__} cannot be kept as text")
+@_described.register
+def _(value: Enum) -> tuple[str, Plain]:
+    return "enum", [_name(type(value)), value.name]
 
 
-def _name(thing: type | FunctionType) -> str:
+@_described.register(np.ndarray)
+def _(value: Any) -> tuple[str, Plain]:
+    return "array", [value.dtype.str, list(value.shape), value.ravel().tolist()]
+
+
+@_described.register
+def _(value: np.generic) -> tuple[str, Plain]:
+    return "number", [value.dtype.str, value.item()]
+
+
+@_described.register(tuple)
+def _(value: Any) -> tuple[str, Plain]:
+    if not hasattr(value, "_fields"):
+        return "tuple", _plain_list(value)
+    names: tuple[str, ...] = value._fields
+    return "record", [_name(type(value)), dict(zip(names, _plain_list(value), strict=True))]
+
+
+@_described.register(Mapping)
+def _(value: Any) -> tuple[str, Plain]:
+    return "dict", [_plain_list(pair) for pair in value.items()]
+
+
+@_described.register
+def _(value: partial) -> tuple[str, Plain]:  # type: ignore[type-arg]
+    return "partial", [plain(value.func), _plain_list(value.args), plain(value.keywords)]
+
+
+@_described.register(type)
+@_described.register(FunctionType)
+def _(value: Any) -> tuple[str, Plain]:
+    return "named", _name(value)
+
+
+def _name(thing: Any) -> str:
     return f"{thing.__module__}:{thing.__qualname__}"
 
 
 def _made(content: Any) -> Any:
     """Return the value that JSON stands for."""
     if isinstance(content, list):
-        return [_made(each) for each in content]
+        return _made_list(content)
     if not isinstance(content, dict):
         return content
-    ((kind, inner),) = content.items()
+    ((kind, inner),) = cast("dict[str, Any]", content).items()
     if kind not in MAKERS:
         raise ValueError(f"a '{kind}' in a kept result")
     return MAKERS[kind](inner)
+
+
+def _made_list(content: Any) -> list[Any]:
+    return [_made(each) for each in content]
 
 
 def _array(content: Any) -> Any:
@@ -110,14 +138,15 @@ def _enum(content: Any) -> Any:
 
 
 def _record(content: Any) -> Any:
-    """Return a record with exactly the fields that were written; nothing of its class is run."""
+    """Return a record with exactly the fields that were written; none of its functions is run."""
     kind, written = content
-    found, values = _class(kind), {name: _made(each) for name, each in written.items()}
-    if issubclass(found, tuple):
+    found: Any = _class(kind)
+    values = {name: _made(each) for name, each in written.items()}
+    if hasattr(found, "_fields"):
         return found(*values.values())
-    if not is_dataclass(found) or {f.name for f in fields(found)} != set(values):
+    if not is_dataclass(found) or {each.name for each in fields(found)} != set(values):
         raise ValueError(f"{kind} is no record, or another one")
-    record = object.__new__(found)
+    record: Any = object.__new__(cast("type[object]", found))
     for name, each in values.items():
         object.__setattr__(record, name, each)
     return record
@@ -132,13 +161,17 @@ def _class(name: str) -> type:
     for part in path.split("."):
         found = getattr(found, part)
     if not isinstance(found, type):
-        raise ValueError(f"{name} is no class")  # noqa: TRY004
+        raise ValueError(f"{name} is no class")
     return found
 
 
+def _pairs(content: Any) -> dict[Any, Any]:
+    return {_made(key): _made(each) for key, each in content}
+
+
 MAKERS: dict[str, Callable[[Any], Any]] = {
-    "tuple": lambda content: tuple(_made(each) for each in content),
-    "dict": lambda content: {_made(key): _made(each) for key, each in content},
+    "tuple": lambda content: tuple(_made_list(content)),
+    "dict": _pairs,
     "array": _array,
     "number": _number,
     "enum": _enum,

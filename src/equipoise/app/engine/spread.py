@@ -61,9 +61,7 @@ def uncounted() -> AbstractContextManager[Report]:
     return nullcontext(lambda _done, _total: None)
 
 
-def spread_over(
-    pool: Pool, counting: Counting = uncounted, kept: Keeping = NOTHING_KEPT
-) -> Spread:
+def spread_over(pool: Pool, counting: Counting = uncounted, kept: Keeping = NOTHING_KEPT) -> Spread:
     """Return a way to do work by a pool; ``counting`` shows how many pieces are done."""
 
     def spread(work: Callable[[Piece], Result], pieces: Sequence[Piece]) -> Iterator[Result]:

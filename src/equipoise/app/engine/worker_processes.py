@@ -18,7 +18,8 @@ from threading import Thread
 
 from equipoise.app.engine.pool import Pool
 
-ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+LIMITS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+ONE_THREAD: dict[str, str] = dict.fromkeys(LIMITS, "1")
 ORPHANED = 70  # exit code that nobody reads
 
 

@@ -38,6 +38,7 @@ from equipoise.study.method_run import Cost, Found, MethodTask
 
 WEIGHED = 2  # records, chosen: memory hardly changes from one to the next
 
+
 @dataclass(frozen=True, slots=True, eq=False)
 class LawGoal:
     """What laws are to reach, and within what."""
@@ -179,7 +180,7 @@ def question_of_laws(contest: Contest) -> dict[str, object]:
     }
 
 
-def stated(options: Options | BalanceOptions) -> dict[str, object]:
+def stated(options: Options | BalanceOptions) -> Mapping[str, object]:
     """Return options as a question has them: of a budget only how long it is."""
     found = {each.name: getattr(options, each.name) for each in fields(options)}
     return found | {"budget": options.budget.begin}

@@ -10,8 +10,8 @@ from equipoise.app.console.rich_blocks import show
 from equipoise.app.console.terminal import (
     busy,
     counted,
-    say_what_is_done,
     counted_pieces,
+    say_what_is_done,
     watched,
 )
 from equipoise.app.live.status_block import TerminalView, watched_by

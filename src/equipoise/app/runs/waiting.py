@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 
-from equipoise.app.engine.spread import Report, uncounted
+from equipoise.app.engine.spread import IN_TURN, Report, Spread, uncounted
 from equipoise.model.step import Step
 
 Share = Callable[[float], None]
@@ -18,6 +18,7 @@ class Waiting:
     doing: Callable[[str], AbstractContextManager[None]]
     search: Callable[[str], AbstractContextManager[Share]]  # yields what takes the share done
     many: Callable[[str], AbstractContextManager[Report]]  # yields what takes how many are done
+    spread: Spread = IN_TURN  # by what pieces are done that a step or a search consists of
 
 
 def as_they_come(steps: Iterator[Step], _what: str) -> Iterator[Step]:
