@@ -17,6 +17,7 @@ from equipoise.app.engine.worker_processes import ONE_THREAD, worker_processes
 from equipoise.model.errors import InputError
 from tests.support import many_pieces
 from tests.support.dask_cluster import cluster, is_alive, until
+from tests.support.many_pieces import pieces_in
 
 
 def environment(_piece):
@@ -87,13 +88,13 @@ def test_a_dask_worker_that_is_killed_costs_no_result(tmp_path):
     """Of two workers one is killed with work in its hands; the other does it too."""
     with cluster(tmp_path) as dask, dask_at(dask.address) as pool:
         found = []
-        for result in spread_over(pool)(many_pieces.pair, range(3000)):
+        for result in spread_over(pool)(many_pieces.noted, pieces_in(tmp_path, "done.txt")):
             found.append(result)
-            if len(found) == 1000:
+            if len(found) == 3000:
                 dask.workers[0].kill()
         assert dask.workers[0].wait() < 0
         assert dask.workers[1].poll() is None
-    assert found == [(math.sin(0.1 * k), math.cos(0.1 * k)) for k in range(3000)]
+    assert found == [(math.sin(0.1 * k), math.cos(0.1 * k)) for k in range(many_pieces.MANY)]
 
 
 def test_a_dask_worker_of_several_threads_is_refused():

@@ -1,13 +1,5 @@
 """Results that a killed run has kept: none is lost, none counts twice, none is of another run."""
 
-import math
-import os
-import signal
-import subprocess
-import sys
-from collections import Counter
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -15,52 +7,24 @@ from equipoise.app.engine.kept_results import KeptResults
 from equipoise.app.engine.pool import HERE
 from equipoise.app.engine.record_text import text_of, value_of
 from equipoise.app.engine.spread import spread_over
-from equipoise.app.engine.worker_processes import worker_processes
 from equipoise.model.errors import InputError
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.verdict import Verdict, VerdictOutcome
 from equipoise.study.compare_laws import Refusal
 from equipoise.study.law_run import LawRun
-from tests.support.dask_cluster import is_alive, until
-from tests.support.many_pieces import MANY, kept_in, key, noted, pair, pieces_in
+from tests.support.killed_run import compared_with_undisturbed
+from tests.support.many_pieces import kept_in, key, pair, pieces_in
 from tests.support.synthetic_runs import made_up
-
-
-def children_of(process: int) -> list[int]:
-    return [int(each) for task in Path(f"/proc/{process}/task").iterdir()
-            for each in (task / "children").read_text().split()]  # fmt: skip
-
-
-def killed_run(folder: Path) -> None:
-    """Begin the ten thousand, and kill the program as soon as the first results are kept."""
-    words = [sys.executable, "-m", "tests.support.many_pieces", str(folder)]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    program = subprocess.Popen(words, env=environment)
-    until(lambda: len(list((folder / "kept").glob("results-*.parquet"))) >= 3)
-    workers = children_of(program.pid)
-    program.send_signal(signal.SIGKILL)
-    assert program.wait() == -signal.SIGKILL
-    assert len(workers) >= 2
-    until(lambda: not any(is_alive(each) for each in workers))
-
-
-def computed(folder: Path, name: str) -> Counter[int]:
-    return Counter(int(line) for line in (folder / name).read_text().split())
 
 
 def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path):
     """Its workers end with it; what it kept is not computed again, all else once."""
-    killed_run(tmp_path)
-    kept = set(kept_in(tmp_path).found(pieces_in(tmp_path, "second.txt")))
-    assert 0 < len(kept) < MANY
-    assert kept <= set(computed(tmp_path, "first.txt"))
-    with worker_processes(2) as pool:
-        spread = spread_over(pool, kept=kept_in(tmp_path))
-        found = list(spread(noted, pieces_in(tmp_path, "second.txt")))
-    assert found == [(math.sin(0.1 * k), math.cos(0.1 * k)) for k in range(MANY)]
-    assert computed(tmp_path, "second.txt") == Counter(set(range(MANY)) - kept)
-    assert len(kept_in(tmp_path).found(pieces_in(tmp_path, "third.txt"))) == MANY
+    found = compared_with_undisturbed(tmp_path)
+    assert 0 < found.kept < found.count == 10_000
+    assert (found.lost, found.doubled) == (0, 0)
+    assert found.equal
+    assert len(kept_in(tmp_path).found(pieces_in(tmp_path, "third.txt"))) == found.count
 
 
 FEW = [("nowhere", k) for k in range(40)]
