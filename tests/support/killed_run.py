@@ -36,7 +36,7 @@ def killed(folder: Path) -> None:
     """Begin the work, kill the program as soon as results are kept; its workers end with it."""
     words = [sys.executable, "-m", "tests.support.many_pieces", str(folder)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    program = subprocess.Popen(words, env=environment)
+    program = subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL)
     until(lambda: len(list((folder / "kept").glob("results-*.parquet"))) >= BEGUN)
     workers = children_of(program.pid)
     program.send_signal(signal.SIGKILL)
