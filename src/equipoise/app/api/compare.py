@@ -8,7 +8,7 @@ from pathlib import Path
 from equipoise.app.arguments import checks
 from equipoise.app.arguments.inputs import TILT, AnyTestbed, budget_from, options_from, testbed_from
 from equipoise.app.arguments.many_runs import engine_from
-from equipoise.app.arguments.options import BUDGET_S
+from equipoise.app.arguments.options import BUDGET_S, Spreading
 from equipoise.app.engine.choice import LOCAL
 from equipoise.app.engine.running import Running
 from equipoise.app.runs.comparison import Compared, Contest, LawGoal, names_of, run_all
@@ -104,6 +104,6 @@ def compare(
         checks.positive("require_torque", require_torque),
         checks.positive("max_time", max_time),
     )
-    engine = engine_from(on, workers)
+    engine = engine_from(Spreading(workers, on))
     running = Running(engine, None if resume is None else Path(resume), warnings.warn)
     return run_all(Contest(names_of(bed, only, methods, laws), scene, seeds, goal), running)

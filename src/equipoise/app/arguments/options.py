@@ -66,6 +66,24 @@ NOTHING_STATED = Seeking()
 
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True)
+class Spreading:
+    """By what pieces of work are done that do not rest on each other.
+
+    Attributes
+    ----------
+    workers
+        Processes to spread trials, budgets, runs of a series or several recordings over.
+    """
+
+    workers: Whole = 1
+    on: On = "local"
+
+
+ALONE = Spreading()
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
 class Searching:
     """How long a search may take.
 

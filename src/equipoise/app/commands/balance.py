@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import (
+    ALONE,
     USUAL,
     WHOLE,
     Json,
-    On,
     Reading,
     Searching,
+    Spreading,
     Triple,
     Whole,
 )
@@ -43,8 +44,7 @@ def balance(
     law: str = "measure_and_move",
     seed: Whole = 1,
     series: Whole | None = None,
-    workers: Whole = 1,
-    on: On = "local",
+    spreading: Spreading = ALONE,
     plan: Path | None = None,
     target_um: Triple = (0.0, 0.0, -100.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
@@ -76,8 +76,6 @@ def balance(
     series
         Balance the simulated platform that the seed draws so many times; the seeds of the runs
         follow the first. The folder gets run_01.csv and so on, what each run recorded.
-    workers
-        Processes to spread the runs of a series over.
     plan
         Plan file: begin with its manoeuvre, then balance on all that was recorded. Of
         measure_and_move alone, without a hold.
@@ -98,7 +96,6 @@ def balance(
     """
     from equipoise.app.arguments.checks import check_outputs, one_of, seed_of
     from equipoise.app.arguments.inputs import plan_from, testbed_from
-    from equipoise.app.arguments.many_runs import check_one_piece, engine_from
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
@@ -110,9 +107,7 @@ def balance(
 
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
-    runs, engine = _runs(series, on_bench), engine_from(on, workers)
-    if runs is None:
-        check_one_piece(on, workers, "--series, whose runs are spread")
+    runs, engine = _runs(series, on_bench, spreading)
     bed, seed = announced(testbed_from(testbed)), seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed).manoeuvre
     check_outputs(out)
@@ -129,18 +124,23 @@ def balance(
         return _series(bed, Goal(*where), limits, (runs, seed), engine=engine, json=json, out=out)
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
     hand_over_run(output_of(done), json, out, bed.name)
-    if done.stopped_with is not None:
-        return done.stopped_with
-    return 0 if done.verdict.passed else 1
+    return done.stopped_with or (0 if done.verdict.passed else 1)
 
 
-def _runs(series: int | None, on_bench: OnBench) -> int | None:
-    """Return how many runs a series has, checked."""
+def _runs(
+    series: int | None, on_bench: OnBench, spreading: Spreading
+) -> "tuple[int | None, Engine]":
+    """Return how many runs a series has, and what they are spread over, checked."""
     from equipoise.app.arguments.checks import positive
+    from equipoise.app.arguments.many_runs import check_one_piece, engine_from
 
     if series is not None and on_bench.bench:
         raise InputError("--series", "a real bench", "a simulated platform")
-    return None if series is None else int(positive("--series", series))
+    engine = engine_from(spreading)
+    if series is None:
+        check_one_piece(spreading, "--series, whose runs are spread")
+        return None, engine
+    return int(positive("--series", series)), engine
 
 
 def _series(

@@ -15,6 +15,7 @@ from equipoise.app.arguments.options import (
     On,
     Searching,
     Seeking,
+    Spreading,
     Triple,
     Whole,
 )
@@ -113,7 +114,7 @@ def compare(
     seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
     duration = duration_of("--duration-s", duration_s, bed)
-    engine = engine_from(on, workers)
+    engine = engine_from(Spreading(workers, on))
     check_outputs(out)
     with busy("preparing", announce=False):
         from equipoise.app.engine.running import Running

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.environment import CALM, Exposure, surroundings_of
-from equipoise.app.arguments.options import Json, On, Several, Triple, Whole
+from equipoise.app.arguments.options import ALONE, Json, Several, Spreading, Triple, Whole
 from equipoise.app.console.terminal import announced, busy
 
 
@@ -18,8 +18,7 @@ def design(
     misalignment_deg: float = 0.0,
     exposure: Exposure = CALM,
     require_torque: float | None = None,
-    workers: Whole = 1,
-    on: On = "local",
+    spreading: Spreading = ALONE,
     json: Json = False,
     out: Path | None = None,
 ) -> int:
@@ -44,8 +43,6 @@ def design(
     require_torque
         Torque that may be left at most, rms over that range, N m; with 95 % of the platforms that
         the testbed states within reach of the masses.
-    workers
-        Processes to spread the budgets over, one for each length of record and each change.
     out
         Folder for report, figures and design.json.
     """
@@ -61,7 +58,7 @@ def design(
     lean = in_si(not_negative("--misalignment-deg", misalignment_deg), DEG)
     positive("--require-torque", require_torque)
     around, bed = surroundings_of(exposure), announced(testbed_with_masses(testbed))
-    engine = engine_from(on, workers)
+    engine = engine_from(spreading)
     check_outputs(out)
     with busy("computing"):
         from equipoise.app.engine.spread import spread_over

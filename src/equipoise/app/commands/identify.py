@@ -5,16 +5,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import (
+    ALONE,
     NOTHING_STATED,
     USUAL,
     WHOLE,
     Flag,
     Json,
-    On,
     Reading,
     Searching,
     Seeking,
-    Whole,
+    Spreading,
 )
 from equipoise.app.console.terminal import busy
 from equipoise.model.errors import InputError
@@ -40,8 +40,7 @@ def identify(
     robust: Flag = False,
     force: Flag = False,
     plan: Path | None = None,
-    workers: Whole = 1,
-    on: On = "local",
+    spreading: Spreading = ALONE,
     seeking: Seeking = NOTHING_STATED,
     searching: Searching = USUAL,
     reading: Reading = WHOLE,
@@ -73,8 +72,6 @@ def identify(
     plan
         Plan file that the recording was made by: what it predicted is compared with what is found.
         Of one recording.
-    workers
-        Processes to spread several recordings over, each of which is first fitted by itself.
     out
         Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """
@@ -91,9 +88,9 @@ def identify(
     check_outputs(out)
     if more and plan is not None:
         raise InputError("--plan", "several recordings", "the one that was made by the plan")
-    engine = engine_from(on, workers)
+    engine = engine_from(spreading)
     if not more:
-        check_one_piece(on, workers, "several recordings")
+        check_one_piece(spreading, "several recordings")
     recordings = [fitting_recording_of(each, reading, bed) for each in (file, *more)]
     planned = None if plan is None else plan_from(plan, bed)
     with busy("identifying", announce=False):
@@ -153,14 +150,12 @@ def _jointly(
 ) -> int:
     """Identify from several recordings of one platform."""
     with busy("identifying", announce=False):
-        from equipoise.app.engine.spread import spread_over
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.joint_identification import run
-        from equipoise.app.runs.terminal_waiting import AT_TERMINAL
+        from equipoise.app.runs.terminal_waiting import at_terminal_by
         from equipoise.app.views.identify_runs_views import output_of
 
-    with engine() as pool:
-        waiting = replace(AT_TERMINAL, spread=spread_over(pool))
+    with at_terminal_by(engine) as waiting:
         done = run(recordings, bed, options, waiting, gate)
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.estimate.outcome.usable and done.verdict.passed else 1

@@ -1,6 +1,8 @@
 """A person at the terminal who waits for a run: signs of life, live numbers, steps as they come."""
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 
 from equipoise.app.arguments.checks import positive
@@ -14,6 +16,8 @@ from equipoise.app.console.terminal import (
     say_what_is_done,
     watched,
 )
+from equipoise.app.engine.pool import Engine
+from equipoise.app.engine.spread import spread_over
 from equipoise.app.live.status_block import TerminalView, watched_by
 from equipoise.app.runs.balancing import Through
 from equipoise.app.runs.waiting import Waiting
@@ -34,6 +38,13 @@ def budget_at_terminal(searching: Searching) -> Budget:
 
 
 AT_TERMINAL = Waiting(watched, busy, counted, counted_pieces)
+
+
+@contextmanager
+def at_terminal_by(engine: Engine) -> Generator[Waiting]:
+    """Lend how a person waits at the terminal for pieces of work that an engine does."""
+    with engine() as pool:
+        yield replace(AT_TERMINAL, spread=spread_over(pool))
 
 
 def at_terminal(testbed: Testbed) -> Through:
