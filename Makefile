@@ -17,7 +17,7 @@ PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
 SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench verify mutants lint format rooms wheel pins clean
+.PHONY: help demo test bench scale verify mutants lint format rooms wheel pins clean
 .DELETE_ON_ERROR:
 
 help:  ## list the targets
@@ -28,8 +28,8 @@ demo: $(RUN) $(VENDORED)  ## identify and balance a simulated microsatellite moc
 
 # A worker more than cores, since some tests wait for a page or a bench in real time.
 # Tests start many programs: each would compile all modules again if nobody kept the bytecode.
-test bench verify mutants: export PYTHONPYCACHEPREFIX := $(abspath $(VENV))/bytecode
-test bench verify mutants: export PYTHONDONTWRITEBYTECODE :=
+test bench scale verify mutants: export PYTHONPYCACHEPREFIX := $(abspath $(VENV))/bytecode
+test bench scale verify mutants: export PYTHONDONTWRITEBYTECODE :=
 
 test: $(TEST) $(VENDORED)  ## run every test, and the examples of README and docs, on two cores
 	@$(BIN)/python -m tests.support.warm_cache
@@ -37,6 +37,9 @@ test: $(TEST) $(VENDORED)  ## run every test, and the examples of README and doc
 
 bench: $(TEST)  ## time the fit, the tracker and the simulator beside other tools
 	@$(BIN)/python -m benchmarks
+
+scale: $(TEST)  ## what many runs cost by each engine; a run that is killed and resumed
+	@$(BIN)/python -m benchmarks.scale
 
 verify: $(TEST) $(VENDORED)  ## the long Monte Carlo and MuJoCo checks, and the long tests whole
 	@EQUIPOISE_THOROUGH=1 $(BIN)/pytest -q -n 3 --dist worksteal -m thorough
@@ -155,7 +158,7 @@ $(VENDORED): web/package-lock.json web/package.json | $(RUN)
 
 COMPILE := uv pip compile pyproject.toml --quiet --universal --python-version 3.11 \
 	--generate-hashes --no-annotate --no-header --no-emit-index-url --no-emit-find-links
-EXTRAS := $(foreach extra,analysis parquet excel matlab hardware mavlink camera logs report dashboard,--extra $(extra))
+EXTRAS := $(foreach extra,analysis parquet excel matlab hardware mavlink camera logs report dashboard cluster,--extra $(extra))
 # Blocks of the second file whose name==version is (wanted=1) or is not (wanted=0) in the first.
 PICK := awk 'NR == FNR { first[$$1]; next } \
 	!/^ / { keep = (($$1 in first) == wanted) } keep'

@@ -9,11 +9,15 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from equipoise.app.console.terminal import counted_pieces
+from equipoise.app.engine.choice import LOCAL, engine_of
+from equipoise.app.engine.pool import Engine
+from equipoise.app.engine.spread import spread_over
 from equipoise.io.files.atomic_file import check_writable, write_whole
 from equipoise.model.errors import InputError
 from verification import (
@@ -64,7 +68,6 @@ from verification import (
 )
 from verification.document import page, section, sections_of, table_of
 from verification.result import Result, Spread
-from verification.workers import spread_over
 
 PAGE = Path(__file__).parents[1] / "docs" / "verification.md"
 
@@ -132,6 +135,9 @@ def arguments(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(CHECKS))
     parser.add_argument("--seeds", type=int, help="instead of those that a claim is stated for")
     parser.add_argument("--workers", type=int, default=2, help="processes (2)")
+    parser.add_argument(
+        "--on", default=LOCAL, help="local, dask-local or dask://HOST:PORT, with all its workers"
+    )
     parser.add_argument("--date", default=None, help="to write into the sections (today)")
     parser.add_argument(
         "--output", type=Path, default=None,
@@ -152,17 +158,14 @@ def command_of(name: str, seeds: int) -> str:
     return f"python -m verification {name}{own}"
 
 
-def measured(name: str, seeds: int, workers: int, console: Console) -> tuple[Result, float]:
+def measured(name: str, seeds: int, engine: Engine) -> tuple[Result, float]:
     """Measure one claim with a progress bar; return the result and the time it took."""
     began = time.perf_counter()
-    columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as progress:
-        bar = progress.add_task(name, total=None)
-
-        def report(done: int, total: int) -> None:
-            progress.update(bar, completed=done, total=total)
-
-        result = CHECKS[name].measure(range(seeds), spread_over(workers, report))
+    with engine() as pool:
+        spread = spread_over(pool, partial(counted_pieces, name))
+        result = CHECKS[name].measure(
+            range(seeds), lambda work, items: list(spread(work, list(items)))
+        )
     return result, time.perf_counter() - began
 
 
@@ -175,6 +178,7 @@ def main(words: Sequence[str]) -> int:
     """Measure what was asked for; the page is written when everything was, or at --output."""
     requested = arguments(words)
     console = Console()
+    engine = engine_of(requested.on, requested.workers)
     names = requested.names or list(CHECKS)
     whole = not requested.names and requested.seeds is None
     target = requested.output or (PAGE if whole else None)
@@ -185,7 +189,7 @@ def main(words: Sequence[str]) -> int:
     sections = {} if whole or target is None else kept_in(target)
     for name in names:
         seeds = requested.seeds or CHECKS[name].seeds
-        result, seconds = measured(name, seeds, requested.workers, console)
+        result, seconds = measured(name, seeds, engine)
         console.print(table_of(result))
         results.append(result)
         sections[name] = section(result, command_of(name, seeds), seconds, date)

@@ -35,7 +35,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed, Truth
 from equipoise.planning.manoeuvre.criterion import size_of
 from equipoise.planning.manoeuvre.manoeuvre_space import Space
-from equipoise.planning.manoeuvre.plan import TRIALS, Wish, planned
+from equipoise.planning.manoeuvre.plan import TRIALS, Trials, Wish, planned
 from equipoise.planning.manoeuvre.predicted_sd import Promise, promise
 from equipoise.planning.manoeuvre.reference_manoeuvre import usual
 from equipoise.planning.manoeuvre.scenario import stated_prior
@@ -79,7 +79,7 @@ def wish_of(testbed: Testbed) -> Wish:
 def plan_of(testbed: Testbed, seconds: float, trials: int = TRIALS) -> Manoeuvre:
     """Return the plan of seed 1."""
     space = Space(testbed, seconds, MOVES, testbed.tilt_limit, RATE, {})
-    return planned(space, wish_of(testbed), 1, trials)
+    return planned(space, wish_of(testbed), 1, Trials(trials))
 
 
 def rmse(runs: Sequence[Run]) -> Array:

@@ -6,7 +6,8 @@ from pathlib import Path
 from numpy.linalg import LinAlgError
 
 from equipoise.app.cli import app, main
-from equipoise.app.console.terminal import spread_over
+from equipoise.app.engine.spread import spread_over
+from equipoise.app.engine.worker_processes import worker_processes
 
 
 class Panic(BaseException):
@@ -25,6 +26,11 @@ def end_thread(cell: str) -> None:
     thread = threading.Thread(target=work, args=(cell,))
     thread.start()
     thread.join()
+
+
+def at_worker(cell: str) -> None:
+    with worker_processes(1) as pool:
+        list(spread_over(pool)(work, [cell]))
 
 
 def raised(kind: type[BaseException], cell: str) -> None:
@@ -48,7 +54,7 @@ WAYS = {
     "panic": lambda cell: raised(Panic, cell),
     "group": lambda cell: (_ for _ in ()).throw(ExceptionGroup(cell, [ValueError(cell)])),
     "thread": end_thread,
-    "worker": lambda cell: list(spread_over(1, "working")(work, [cell])),
+    "worker": at_worker,
 }
 
 

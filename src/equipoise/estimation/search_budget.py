@@ -51,7 +51,7 @@ class Budget:
     """What one search may take; it begins with the first question."""
 
     def __init__(self, begin: Callable[[], Spent], at: Callable[[Stage], None] = unwatched) -> None:
-        self._begin, self._at = begin, at
+        self.begin, self._at = begin, at
         self._spent: Spent | None = None
         self.unfinished: tuple[Stage, ...] = ()  # that were not allowed to go on
 
@@ -59,7 +59,7 @@ class Budget:
         """Say whether a stage may go on; it is unfinished otherwise."""
         self._at(stage)
         if self._spent is None:
-            self._spent = self._begin()
+            self._spent = self.begin()
         if not self._spent():
             return True
         if stage not in self.unfinished:
@@ -68,7 +68,7 @@ class Budget:
 
     def renewed(self) -> "Budget":
         """Return the same budget for another search."""
-        return Budget(self._begin, self._at)
+        return Budget(self.begin, self._at)
 
 
 UNLIMITED = Budget(without_end)

@@ -5,7 +5,6 @@ testbed's [truth] states of the start, and its events and faults, are the same i
 first run is the one that its seed gives by itself.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from equipoise.model.testbed import Testbed
@@ -20,6 +19,6 @@ def with_drawn_platform(testbed: Testbed, seed: int) -> Testbed:
     return replace(testbed, truth=replace(truth, com=body.com, inertia_P=body.inertia_P))
 
 
-def seeds_of(runs: int, seed: int) -> Iterator[int]:
+def seeds_of(runs: int, seed: int) -> range:
     """Return the seed of each run."""
-    return iter(range(seed, seed + runs))
+    return range(seed, seed + runs)

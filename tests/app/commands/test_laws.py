@@ -136,7 +136,7 @@ def without_work(monkeypatch):
             return Refusal(task.law, "it does not like it")
         return made_up(task.law, task.seed, torques[task.law] * task.seed)
 
-    def found(contest, cards, _workers, _waiting):
+    def found(contest, cards, _spread):
         tasks = [Task(card.name, contest.scene.testbed, seed, BalanceOptions(), 60.0, 0.3)
                  for seed in contest.seeds for card in cards]  # fmt: skip
         return compared(tasks, cards, contest.goal.required, lambda *_: map(finding, tasks))

@@ -66,7 +66,8 @@ def test_progress_lines_read_no_markup(capsys):
     err = capsys.readouterr().err
     assert SHOWN in err
     assert "a {x} [/red] ..." in err
-    assert list(terminal.spread_over(1, "[/red]")(abs, [-1])) == [1]
+    with terminal.counted_pieces("[/red]") as report:
+        report(1, 2)
 
 
 def test_a_complaint_is_one_line_of_text(capsys):

@@ -23,7 +23,7 @@ from equipoise.planning.manoeuvre.limit_check import (
     thinned,
 )
 from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen, greatest
-from equipoise.planning.manoeuvre.plan import Wish, merit, planned, search_for
+from equipoise.planning.manoeuvre.plan import Trials, Wish, merit, planned, search_for
 from equipoise.planning.manoeuvre.predicted_information import predicted
 from equipoise.planning.manoeuvre.predicted_sd import met
 from equipoise.planning.manoeuvre.reference_manoeuvre import usual
@@ -171,7 +171,7 @@ def test_the_same_seed_plans_the_same_and_better_than_usual():
     testbed = replace(testbed, body=body, com_sd=sd)
     where = Space(testbed, 60.0, 1, testbed.tilt_limit, RATE, {})
     wish = Wish("both", "A", Params(), stated_prior(testbed))
-    first, second = (planned(where, wish, 2, 180) for _ in range(2))
+    first, second = (planned(where, wish, 2, Trials(180)) for _ in range(2))
     assert (first.moves, first.tilt) == (second.moves, second.tilt)
     search = search_for(where, wish, 2)
     assert merit(search, first) < merit(search, usual(testbed, 60.0, {})) - 0.2

@@ -50,7 +50,8 @@ def usual():
 
 @cache
 def better():
-    return what_to_buy(case())
+    possible = list(changes(case()))
+    return what_to_buy(possible, (budget_of(each.case) for each in possible))
 
 
 def torque_of(budget, name):

@@ -1,11 +1,16 @@
 """Compare: methods on the same recordings, laws on the same platforms."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from equipoise.app.arguments import checks
 from equipoise.app.arguments.inputs import TILT, AnyTestbed, budget_from, options_from, testbed_from
-from equipoise.app.arguments.options import BUDGET_S
+from equipoise.app.arguments.many_runs import engine_from
+from equipoise.app.arguments.options import BUDGET_S, Spreading
+from equipoise.app.engine.choice import LOCAL
+from equipoise.app.engine.running import Running
 from equipoise.app.runs.comparison import Compared, Contest, LawGoal, names_of, run_all
 from equipoise.study.method_record import Scene
 
@@ -30,6 +35,8 @@ def compare(
     require_torque: float = 1e-5,
     max_time: float = 600.0,
     workers: int = 1,
+    on: str = LOCAL,
+    resume: str | Path | None = None,
 ) -> Compared:
     """Run methods on the same recordings, or laws on the same platforms; the truth judges.
 
@@ -74,11 +81,17 @@ def compare(
     workers
         Processes to spread the runs over. More than one needs a script whose start is guarded by
         ``if __name__ == "__main__":``.
+    on
+        Where to run: local, dask-local, or dask://HOST:PORT of a scheduler that runs.
+    resume
+        Folder that keeps each result as it comes; of those that it has none is computed again.
+        Needs the extra ``parquet``. A file of it that cannot be read is warned of.
 
     Raises
     ------
     InputError
-        For nothing to compare, unknown names, laws that the testbed lacks a device for.
+        For nothing to compare, unknown names, laws that the testbed lacks a device for; a scheduler
+        that does not answer; a folder with the results of another comparison.
     """
     bed, first = testbed_from(testbed), checks.seed_of(seed)
     seeds = range(first, first + int(checks.positive("runs", runs)))
@@ -91,5 +104,6 @@ def compare(
         checks.positive("require_torque", require_torque),
         checks.positive("max_time", max_time),
     )
-    many = int(checks.positive("workers", workers))
-    return run_all(Contest(names_of(bed, only, methods, laws), scene, seeds, goal), many)
+    engine = engine_from(Spreading(workers, on))
+    running = Running(engine, None if resume is None else Path(resume), warnings.warn)
+    return run_all(Contest(names_of(bed, only, methods, laws), scene, seeds, goal), running)

@@ -32,6 +32,13 @@ Listed = Annotated[tuple[str, ...], Parameter(show_default=False, consume_multip
 Triple = Annotated[tuple[float, float, float], Parameter(show_default=_plain)]
 Several = Annotated[tuple[float, ...], Parameter(show_default=_plain, consume_multiple=True)]
 Whole = Annotated[int, Parameter(converter=_whole)]
+On = Annotated[
+    str,
+    Parameter(
+        help="Where to run: local, in processes of this computer; dask-local, in a Dask cluster "
+        "begun for it; or dask://HOST:PORT, on a scheduler that runs, with all its workers."
+    ),
+]
 
 
 @Parameter(name="*")
@@ -55,6 +62,24 @@ class Seeking:
 
 
 NOTHING_STATED = Seeking()
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
+class Spreading:
+    """By what pieces of work are done that do not rest on each other.
+
+    Attributes
+    ----------
+    workers
+        Processes to spread trials, budgets, runs of a series or several recordings over.
+    """
+
+    workers: Whole = 1
+    on: On = "local"
+
+
+ALONE = Spreading()
 
 
 @Parameter(name="*")

@@ -1,15 +1,18 @@
 """`equipoise balance`: estimate, move, estimate again, until the verdict passes."""
 
 from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import (
+    ALONE,
     USUAL,
     WHOLE,
     Json,
     Reading,
     Searching,
+    Spreading,
     Triple,
     Whole,
 )
@@ -22,10 +25,11 @@ from equipoise.app.commands.by_hand import (
     is_by_hand,
 )
 from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, let_go, prepare
-from equipoise.app.console.terminal import announced, busy, counted
+from equipoise.app.console.terminal import announced, busy, counted_pieces
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
+    from equipoise.app.engine.pool import Engine
     from equipoise.app.runs.balancing import Balancing, Goal, Limits
     from equipoise.model.arrays import Vector3
     from equipoise.model.testbed import Testbed
@@ -40,6 +44,7 @@ def balance(
     law: str = "measure_and_move",
     seed: Whole = 1,
     series: Whole | None = None,
+    spreading: Spreading = ALONE,
     plan: Path | None = None,
     target_um: Triple = (0.0, 0.0, -100.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
@@ -102,7 +107,7 @@ def balance(
 
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
-    runs = _runs(series, on_bench)
+    runs, engine = _runs(series, on_bench, spreading)
     bed, seed = announced(testbed_from(testbed)), seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed).manoeuvre
     check_outputs(out)
@@ -116,21 +121,26 @@ def balance(
         budget = budget_at_terminal(searching)
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned, budget)
     if runs is not None:
-        return _series(bed, Goal(*where), limits, (runs, seed), json=json, out=out)
+        return _series(bed, Goal(*where), limits, (runs, seed), engine=engine, json=json, out=out)
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
     hand_over_run(output_of(done), json, out, bed.name)
-    if done.stopped_with is not None:
-        return done.stopped_with
-    return 0 if done.verdict.passed else 1
+    return done.stopped_with or (0 if done.verdict.passed else 1)
 
 
-def _runs(series: int | None, on_bench: OnBench) -> int | None:
-    """Return how many runs a series has, checked."""
+def _runs(
+    series: int | None, on_bench: OnBench, spreading: Spreading
+) -> "tuple[int | None, Engine]":
+    """Return how many runs a series has, and what they are spread over, checked."""
     from equipoise.app.arguments.checks import positive
+    from equipoise.app.arguments.many_runs import check_one_piece, engine_from
 
     if series is not None and on_bench.bench:
         raise InputError("--series", "a real bench", "a simulated platform")
-    return None if series is None else int(positive("--series", series))
+    engine = engine_from(spreading)
+    if series is None:
+        check_one_piece(spreading, "--series, whose runs are spread")
+        return None, engine
+    return int(positive("--series", series)), engine
 
 
 def _series(
@@ -139,16 +149,19 @@ def _series(
     limits: "Limits",
     seeds: tuple[int, int],
     *,
+    engine: "Engine",
     json: bool,
     out: Path | None,
 ) -> int:
     """Balance one simulated platform several times."""
+    from equipoise.app.engine.spread import spread_over
     from equipoise.app.logbook.output import hand_over_run
     from equipoise.app.runs.balance_series import run_series
     from equipoise.app.views.balance_series_views import output_of
 
-    with counted(f"balancing {seeds[0]} runs") as progress:
-        done = run_series(bed, goal, limits, seeds, progress)
+    with engine() as pool:
+        spread = spread_over(pool, partial(counted_pieces, f"balancing {seeds[0]} runs"))
+        done = run_series(bed, goal, limits, seeds, spread)
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.verdict.passed else 1
 

@@ -12,12 +12,14 @@ from equipoise.app.arguments.options import (
     Flag,
     Json,
     Names,
+    On,
     Searching,
     Seeking,
+    Spreading,
     Triple,
     Whole,
 )
-from equipoise.app.console.terminal import announced, busy
+from equipoise.app.console.terminal import announced, busy, notice
 
 if TYPE_CHECKING:
     from equipoise.app.runs.comparison import Compared, LawGoal
@@ -67,6 +69,8 @@ def compare(
     searching: Searching = USUAL,
     judging: JudgingLaws = AS_THEY_ARE,
     workers: Whole = 2,
+    on: On = "local",
+    resume: Path | None = None,
     json: Json = False,
     out: Path | None = None,
 ) -> int:
@@ -96,19 +100,24 @@ def compare(
         Methods: move of masses, "seconds: mass=mm mass=mm" from home. May be repeated.
     workers
         Processes to spread the runs over.
+    resume
+        Folder that keeps each result as it comes. Of those that it has, none is computed again: so
+        a comparison goes on that was ended, and takes in more runs.
     out
         Folder for the report, figures, compare.json, and methods.csv or laws.csv, a line a run.
     """
     from equipoise.app.arguments.checks import check_outputs, duration_of, positive, seed_of
     from equipoise.app.arguments.inputs import move_of, options_of, testbed_from
+    from equipoise.app.arguments.many_runs import engine_from
 
     bed, first = announced(testbed_from(testbed)), seed_of(seed)
     seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
     duration = duration_of("--duration-s", duration_s, bed)
-    many = int(positive("--workers", workers))
+    engine = engine_from(Spreading(workers, on))
     check_outputs(out)
     with busy("preparing", announce=False):
+        from equipoise.app.engine.running import Running
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.comparison import Contest, names_of, run_all
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL, budget_at_terminal
@@ -118,7 +127,8 @@ def compare(
         options = options_of(seeking, budget_at_terminal(searching))
         goal, names = _goal(judging), names_of(bed, only, methods, laws)
         scene = Scene(bed, duration, moves, options)
-    done = run_all(Contest(names, scene, seeds, goal), many, AT_TERMINAL)
+        running = Running(engine, resume, notice)
+    done = run_all(Contest(names, scene, seeds, goal), running, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     return _code(done)
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.environment import CALM, Exposure, surroundings_of
-from equipoise.app.arguments.options import Json, Several, Triple, Whole
+from equipoise.app.arguments.options import ALONE, Json, Several, Spreading, Triple, Whole
 from equipoise.app.console.terminal import announced, busy
 
 
@@ -18,6 +18,7 @@ def design(
     misalignment_deg: float = 0.0,
     exposure: Exposure = CALM,
     require_torque: float | None = None,
+    spreading: Spreading = ALONE,
     json: Json = False,
     out: Path | None = None,
 ) -> int:
@@ -47,6 +48,7 @@ def design(
     """
     from equipoise.app.arguments.checks import check_outputs, not_negative, positive, vector
     from equipoise.app.arguments.inputs import testbed_with_masses
+    from equipoise.app.arguments.many_runs import engine_from
     from equipoise.model.units import DEG, UM, in_si
 
     lengths = [positive("--record-s", length) for length in record_s]
@@ -56,14 +58,17 @@ def design(
     lean = in_si(not_negative("--misalignment-deg", misalignment_deg), DEG)
     positive("--require-torque", require_torque)
     around, bed = surroundings_of(exposure), announced(testbed_with_masses(testbed))
+    engine = engine_from(spreading)
     check_outputs(out)
     with busy("computing"):
+        from equipoise.app.engine.spread import spread_over
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.views.design_views import output_of
         from equipoise.planning.sizing.case import Case
         from equipoise.planning.sizing.sizing import sized
 
         case = Case(bed, target, tilt, lengths[0], count, lean, around)
-        found = sized(case, lengths, require_torque)
+        with engine() as pool:
+            found = sized(case, lengths, require_torque, spread_over(pool))
     hand_over(output_of(found), json, out)
     return 0 if found.verdict.passed else 1

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import (
+    ALONE,
     NOTHING_STATED,
     USUAL,
     WHOLE,
@@ -13,6 +14,7 @@ from equipoise.app.arguments.options import (
     Reading,
     Searching,
     Seeking,
+    Spreading,
 )
 from equipoise.app.console.terminal import busy
 from equipoise.model.errors import InputError
@@ -20,6 +22,8 @@ from equipoise.model.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from equipoise.app.engine.pool import Engine
+    from equipoise.app.runs.plausible_record import Gate
     from equipoise.model.finding import Finding
     from equipoise.model.manoeuvre import Plan
     from equipoise.model.recording import Recording
@@ -36,6 +40,7 @@ def identify(
     robust: Flag = False,
     force: Flag = False,
     plan: Path | None = None,
+    spreading: Spreading = ALONE,
     seeking: Seeking = NOTHING_STATED,
     searching: Searching = USUAL,
     reading: Reading = WHOLE,
@@ -77,14 +82,19 @@ def identify(
         plan_from,
         testbed_from,
     )
+    from equipoise.app.arguments.many_runs import check_one_piece, engine_from
 
     bed, of_fit = testbed_from(testbed), options_of(seeking)
     check_outputs(out)
     if more and plan is not None:
         raise InputError("--plan", "several recordings", "the one that was made by the plan")
+    engine = engine_from(spreading)
+    if not more:
+        check_one_piece(spreading, "several recordings")
     recordings = [fitting_recording_of(each, reading, bed) for each in (file, *more)]
     planned = None if plan is None else plan_from(plan, bed)
     with busy("identifying", announce=False):
+        from equipoise.app.runs.plausible_record import Gate
         from equipoise.app.runs.terminal_waiting import budget_at_terminal
         from equipoise.estimation.methods.registry import METHODS
         from equipoise.procedure.identification.identify import IdentifyOptions
@@ -93,7 +103,8 @@ def identify(
     budget = budget_at_terminal(searching)
     options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust, budget)
     if more:
-        return _jointly(recordings, bed, options, force=force, json=json, out=out)
+        gate = Gate(force)
+        return _jointly(recordings, bed, options, engine, gate, json=json, out=out)
     return _from_one(recordings[0], bed, options, planned, force=force, json=json, out=out)
 
 
@@ -131,8 +142,9 @@ def _jointly(
     recordings: "Sequence[Recording]",
     bed: "Testbed",
     options: "IdentifyOptions",
+    engine: "Engine",
+    gate: "Gate",
     *,
-    force: bool,
     json: bool,
     out: Path | None,
 ) -> int:
@@ -140,10 +152,10 @@ def _jointly(
     with busy("identifying", announce=False):
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.joint_identification import run
-        from equipoise.app.runs.plausible_record import Gate
-        from equipoise.app.runs.terminal_waiting import AT_TERMINAL
+        from equipoise.app.runs.terminal_waiting import at_terminal_by
         from equipoise.app.views.identify_runs_views import output_of
 
-    done = run(recordings, bed, options, AT_TERMINAL, Gate(force))
+    with at_terminal_by(engine) as waiting:
+        done = run(recordings, bed, options, waiting, gate)
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.estimate.outcome.usable and done.verdict.passed else 1

@@ -4,11 +4,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from equipoise.app.arguments.options import (
+    ALONE,
     NOTHING_STATED,
     WHOLE,
     Json,
     Reading,
     Seeking,
+    Spreading,
     Whole,
 )
 from equipoise.app.console.terminal import announced, show_paths
@@ -32,6 +34,7 @@ def plan(
     seeking: Seeking = NOTHING_STATED,
     trials: Whole = 2400,
     seed: Whole = 1,
+    spreading: Spreading = ALONE,
     write: Path | None = None,
     json: Json = False,
     out: Path | None = None,
@@ -75,35 +78,37 @@ def plan(
         options_of,
         testbed_from,
     )
+    from equipoise.app.arguments.many_runs import engine_from
     from equipoise.model.units import DEG, in_si
 
     bed, requested = announced(testbed_from(testbed)), options_of(seeking)
     duration = checks.duration_of("--duration-s", duration_s, bed)
     rate = in_si(checks.positive("--max-rate-deg-s", max_rate_deg_s), DEG)
     count = int(checks.not_negative("--moves", moves))
-    tries = int(checks.positive("--trials", trials))
+    tries, engine = int(checks.positive("--trials", trials)), engine_from(spreading)
     checks.check_outputs(out, write)
     check_of_recording(reading, prior_record, "--prior-record")
     earlier = None if prior_record is None else fitting_recording_of(prior_record, reading, bed)
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.runs.planning import Request, run
-    from equipoise.app.runs.terminal_waiting import AT_TERMINAL
+    from equipoise.app.runs.terminal_waiting import at_terminal_by
     from equipoise.app.views.plan_views import output_of
 
     drawn = checks.seed_of(seed)
     request = Request(
         bed, duration, quantity, criterion, count, rate, requested, earlier, tries, drawn
     )
-    done = run(request, AT_TERMINAL)
+    with at_terminal_by(engine) as waiting:
+        done = run(request, waiting)
     hand_over(output_of(done), json, out)
-    if write is not None:
-        _write(done.plan, bed, write, json)
+    _write(done.plan, bed, write, json)
     return 0 if done.planned.keeps else 1
 
 
-def _write(plan: "Plan", bed: "Testbed", path: Path, json: bool) -> None:
-    """Write the plan file, and say so."""
+def _write(plan: "Plan", bed: "Testbed", path: Path | None, json: bool) -> None:
+    """Write the plan file where there is to be one, and say so."""
     from equipoise.io.documents.plan_file import write_plan
 
-    write_plan(plan, bed, path)
-    show_paths([path], json)
+    if path is not None:
+        write_plan(plan, bed, path)
+        show_paths([path], json)

@@ -30,5 +30,7 @@ def precompile(*, workers: int | None = None) -> int:
         for k, _ in enumerate(rehearsed(Path(folder), workers or os.cpu_count() or 1)):
             share((k + 1) / count)
     kept = [path.stat().st_size for path in kernels_folder().rglob("*.nbc")]
-    print_whole(f"{len(kept)} kernels, {sum(kept) / MEGABYTE:.1f} MB, are kept in {kernels_folder()}.")
+    print_whole(
+        f"{len(kept)} kernels, {sum(kept) / MEGABYTE:.1f} MB, are kept in {kernels_folder()}."
+    )
     return 0

@@ -5,16 +5,17 @@ import signal
 import sys
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from equipoise.app.console.stop_request import stoppable
 from equipoise.app.text.escaping import for_one_line, for_terminal
+from equipoise.model.units import MINUTE
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from rich.console import Console, RenderableType
-    from rich.progress import TextColumn
+    from rich.progress import TaskID, TextColumn
 
     from equipoise.model.step import Step
     from equipoise.model.testbed import Testbed
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
 COMPILING = "compiling kernels, once"
 _DRAWN: list["_SignOfLife"] = []
 REFRESHES = 8.0  # Hz, chosen: as often as a person can follow, at little cost
-Item = TypeVar("Item")
-Result = TypeVar("Result")
-Spreading = Callable[[Callable[[Item], Result], Sequence[Item]], Iterator[Result]]
 
 
 def stdout() -> "Console":
@@ -65,8 +63,13 @@ def print_whole(text: str) -> None:
 def announced(testbed: "Testbed") -> "Testbed":
     """Return a testbed, having printed what reading it had to set right."""
     for reason in testbed.mended:
-        stderr().print(f"~ {reason.sentence}")
+        notice(reason.sentence)
     return testbed
+
+
+def notice(sentence: str) -> None:
+    """Print what a person should know, and need not act upon."""
+    stderr().print(f"~ {sentence}")
 
 
 def agreed(question: str) -> bool:
@@ -149,13 +152,18 @@ def counted(what: str) -> "Generator[Callable[[float], None]]":
     """Show progress on stderr; the function that is yielded takes the share that is done."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeElapsedColumn
 
+    columns = (_described(), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=_announcing(what), transient=True) as progress:
+        bar = progress.add_task(for_terminal(what), total=1.0)
+        yield lambda share: progress.update(bar, completed=share)
+
+
+def _announcing(what: str) -> "Console":
+    """Return the console for progress; cut off from a terminal it says once what is done."""
     console = stderr()
     if not console.is_terminal:
         console.print(f"{what} ...")
-    columns = (_described(), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as progress:
-        bar = progress.add_task(for_terminal(what), total=1.0)
-        yield lambda share: progress.update(bar, completed=share)
+    return console
 
 
 def _described() -> "TextColumn":
@@ -165,25 +173,47 @@ def _described() -> "TextColumn":
     return TextColumn("{task.description}", markup=False)
 
 
-def spread_over(workers: int, doing: str) -> Spreading[Item, Result]:
-    """Return a way to do work on items in so many processes; results come in the items' order."""
+@contextmanager
+def counted_pieces(what: str) -> "Generator[Callable[[int, int], None]]":
+    """Show on stderr how many pieces of work are done, at what rate, and the time that is left.
 
-    def spread(work: Callable[[Item], Result], items: Sequence[Item]) -> Iterator[Result]:
-        from concurrent.futures import ProcessPoolExecutor
-        from multiprocessing import get_context
+    The function that is yielded takes how many are done and of how many; what it takes first was
+    there before.
+    """
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeElapsedColumn
+    columns = (_described(), BarColumn(), MofNCompleteColumn(), _rate(), TimeRemainingColumn())
+    with Progress(*columns, console=_announcing(what), transient=True) as progress:
+        bar: TaskID | None = None
 
-        columns = (_described(), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-        with (
-            Progress(*columns, console=stderr(), transient=True) as progress,
-            ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool,
-        ):
-            yield from progress.track(
-                pool.map(work, items), len(items), description=for_terminal(doing)
-            )
+        def report(done: int, total: int) -> None:
+            nonlocal bar
+            if bar is None:
+                bar = progress.add_task(for_terminal(what), total=total, completed=done)
+            progress.update(bar, completed=done)
 
-    return spread
+        yield report
+
+
+def _rate() -> "TextColumn":
+    """Return the column of a progress line that says how many are done in a second or a minute."""
+    from rich.progress import Task, TextColumn
+    from rich.text import Text
+
+    class RateColumn(TextColumn):
+        """The rate of the last while; nothing as long as it is not known."""
+
+        def render(self, task: Task) -> Text:
+            return Text(rate_text(task.finished_speed or task.speed))
+
+    return RateColumn("")
+
+
+def rate_text(rate: float | None) -> str:
+    """Return a rate (1/s) as a person reads it: in a second, or in a minute where that is slow."""
+    if not rate:
+        return ""
+    return f"{rate:.3g}/s" if rate >= 1 else f"{rate * MINUTE:.3g}/min"
 
 
 def watched(

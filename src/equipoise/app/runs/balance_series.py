@@ -1,8 +1,10 @@
 """A series of balancings of one simulated platform: how many end well, and where they leave it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
+from equipoise.app.engine.spread import IN_TURN, Spread
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
@@ -34,12 +36,13 @@ def run_series(
     goal: Goal,
     limits: Limits,
     seeds: tuple[int, int],
-    progress: Callable[[float], None],
+    spread: Spread = IN_TURN,
 ) -> BalancedSeries:
     """Balance the platform that the first seed draws; ``seeds``: how many runs, the first seed."""
-    (count, first), done = seeds, list[Balancing]()
-    platform = with_drawn_platform(testbed, first)
-    for seed in seeds_of(count, first):
-        done.append(run(bench_for(platform, limits.plan, seed), goal, limits, None))
-        progress(len(done) / count)
-    return BalancedSeries(testbed, goal, limits.law, done)
+    balanced = partial(one_run, with_drawn_platform(testbed, seeds[1]), goal, limits)
+    return BalancedSeries(testbed, goal, limits.law, list(spread(balanced, seeds_of(*seeds))))
+
+
+def one_run(platform: Testbed, goal: Goal, limits: Limits, seed: int) -> Balancing:
+    """Balance a platform once; the seed draws noise and start."""
+    return run(bench_for(platform, limits.plan, seed), goal, limits, None)

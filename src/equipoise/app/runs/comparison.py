@@ -11,10 +11,14 @@ Cannot see what compiled kernels allocate by themselves.
 import time
 import tracemalloc
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import partial
 
 from equipoise.app.arguments.checks import one_of
+from equipoise.app.engine.running import ALONE, Running
+from equipoise.app.engine.spread import Spread, spread_over
 from equipoise.app.runs.waiting import QUIET, Waiting
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
@@ -31,6 +35,8 @@ from equipoise.study.compare_methods import MethodComparison, compared_methods
 from equipoise.study.law_run import Task
 from equipoise.study.method_record import Scene
 from equipoise.study.method_run import Cost, Found, MethodTask
+
+WEIGHED = 2  # records, chosen: memory hardly changes from one to the next
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,14 +89,18 @@ def names_of(testbed: Testbed, only: Sequence[str], methods: bool, laws: bool) -
     )
 
 
-def run_all(contest: Contest, workers: int, waiting: Waiting = QUIET) -> Compared:
+def run_all(contest: Contest, running: Running = ALONE, waiting: Waiting = QUIET) -> Compared:
     """Return methods compared on the scene's recordings, and laws on the same platforms."""
-    scene, seeds, names = contest.scene, contest.seeds, contest.names
-    measured = balanced = None
-    if names.methods is not None:
-        measured = run_methods(scene, names.methods, seeds, workers, waiting)
-    if names.laws is not None:
-        balanced = run(contest, names.laws, workers, waiting)
+    scene, names, measured, balanced = contest.scene, contest.names, None, None
+    with running.engine() as pool:
+        if names.methods is not None:
+            kept = running.kept("methods", question_of_methods(scene, names.methods), method_key)
+            spread = spread_over(pool, partial(waiting.many, "estimating"), kept)
+            measured = run_methods(scene, names.methods, contest.seeds, spread)
+        if names.laws is not None:
+            kept = running.kept("laws", question_of_laws(contest), law_key)
+            spread = spread_over(pool, partial(waiting.many, "balancing"), kept)
+            balanced = run(contest, names.laws, spread)
     return Compared(scene.testbed, texts_of(contest), measured, balanced)
 
 
@@ -139,37 +149,75 @@ def by_kind(only: Sequence[str], methods: bool, laws: bool) -> tuple[list[str], 
     return [n for n in names if methods and n in METHODS], [n for n in names if n in CARDS]
 
 
-def run(
-    contest: Contest, cards: Sequence[LawCard], workers: int, waiting: Waiting = QUIET
-) -> Comparison:
+def method_key(task: MethodTask) -> str:
+    """Return what the methods on one record are known by."""
+    return f"seed {task.seed}"
+
+
+def law_key(task: Task) -> str:
+    """Return what a law on one platform is known by."""
+    return f"{task.law}, seed {task.seed}"
+
+
+def question_of_methods(scene: Scene, methods: tuple[str, ...]) -> dict[str, object]:
+    """Return what the results of a seed rest on beside it."""
+    return {
+        "methods": methods,
+        "testbed": scene.testbed,
+        "duration": scene.duration,
+        "moves": scene.moves,
+        "options": stated(scene.options),
+    }
+
+
+def question_of_laws(contest: Contest) -> dict[str, object]:
+    """Return what the result of a law and a seed rests on beside them."""
+    return {
+        "testbed": contest.scene.testbed,
+        "options": stated(law_options(contest)),
+        "max_time": contest.goal.max_time,
+        "tilt": contest.goal.tilt,
+    }
+
+
+def stated(options: Options | BalanceOptions) -> Mapping[str, object]:
+    """Return options as a question has them: of a budget only how long it is."""
+    found = {each.name: getattr(options, each.name) for each in fields(options)}
+    return found | {"budget": options.budget.begin}
+
+
+def law_options(contest: Contest) -> BalanceOptions:
+    """Return how each law balances."""
+    goal, budget = contest.goal, contest.scene.options.budget
+    return BalanceOptions(goal.target, goal.tolerance, FIRST_MOVES, goal.max_time, budget=budget)
+
+
+def run(contest: Contest, cards: Sequence[LawCard], spread: Spread) -> Comparison:
     """Return the comparison of laws; runs of one platform by all laws follow each other."""
-    goal, testbed = contest.goal, contest.scene.testbed
-    budget = contest.scene.options.budget
-    options = BalanceOptions(goal.target, goal.tolerance, FIRST_MOVES, goal.max_time, budget=budget)
+    goal, testbed, options = contest.goal, contest.scene.testbed, law_options(contest)
     tasks = [
         Task(card.name, testbed, seed, options, goal.max_time, goal.tilt)
         for seed in contest.seeds
         for card in cards
     ]
-    return compared(tasks, cards, goal.required, waiting.spread(workers, "balancing"))
+    return compared(tasks, cards, goal.required, spread)
 
 
 def run_methods(
     scene: Scene,
     methods: tuple[str, ...],
     seeds: Sequence[int],
-    workers: int,
-    waiting: Waiting = QUIET,
+    spread: Spread,
 ) -> MethodComparison:
-    """Return the comparison; memory is measured on as many records as there are processes.
+    """Return the comparison; memory is measured on the first records, whoever computes them.
 
-    So most processes have loaded their compiled kernels before they measure times.
+    A process that does so has loaded its compiled kernels before it measures times.
     """
     tasks = [
-        MethodTask(scene, methods, seed, metered, weighed=k < workers)
+        MethodTask(scene, methods, seed, metered, weighed=k < WEIGHED)
         for k, seed in enumerate(seeds)
     ]
-    return compared_methods(tasks, waiting.spread(workers, "estimating"))
+    return compared_methods(tasks, spread)
 
 
 def metered(work: Callable[[], Found], weighed: bool) -> tuple[Found, Cost]:

@@ -86,7 +86,7 @@ def run(
     ended = list[JointEstimate]()
 
     def steps() -> Iterator[Step]:
-        ended.append((yield from identify_runs(recordings, testbed, options)))
+        ended.append((yield from identify_runs(recordings, testbed, options, waiting.spread)))
 
     done = list(waiting.steps(steps(), f"identifying {len(recordings)} recordings"))
     return JointIdentification(testbed, runs_of(recordings, held, done, ended[0]), done, ended[0])

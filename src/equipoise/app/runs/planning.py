@@ -16,7 +16,7 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.planning.manoeuvre.criterion import NAMES, Criterion, Quantity
 from equipoise.planning.manoeuvre.manoeuvre_space import Space
-from equipoise.planning.manoeuvre.plan import Wish, planned
+from equipoise.planning.manoeuvre.plan import Trials, Wish, planned
 from equipoise.planning.manoeuvre.predicted_sd import Promise, promise
 from equipoise.planning.manoeuvre.prior_from_record import RecordPrior, record_prior
 from equipoise.planning.manoeuvre.reference_manoeuvre import usual
@@ -82,7 +82,7 @@ def run(request: Request, waiting: Waiting = QUIET) -> Planning:
     rate, limit = request.rate, testbed.tilt_limit
     space = Space(testbed, request.duration, request.moves, limit, rate, standing)
     with waiting.search("planning") as report:
-        best = planned(space, wish, request.seed, request.trials, report)
+        best = planned(space, wish, request.seed, Trials(request.trials, waiting.spread, report))
     before = usual(testbed, request.duration, standing)
     with waiting.doing("trying it on other platforms"):
         first, second = (promise(testbed, m, wish, request.seed, rate) for m in (before, best))

@@ -1,16 +1,12 @@
 """How somebody waits for a run: at a terminal with signs of life, or quietly."""
 
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
-from typing import Any
 
+from equipoise.app.engine.spread import IN_TURN, Report, Spread, uncounted
 from equipoise.model.step import Step
 
-Work = Callable[[Any], Any]
-Spreading = Callable[[Work, Sequence[Any]], Iterator[Any]]
 Share = Callable[[float], None]
 
 
@@ -21,7 +17,8 @@ class Waiting:
     steps: Callable[[Iterator[Step], str], Iterator[Step]]
     doing: Callable[[str], AbstractContextManager[None]]
     search: Callable[[str], AbstractContextManager[Share]]  # yields what takes the share done
-    spread: Callable[[int, str], Spreading]  # over so many processes, results in order
+    many: Callable[[str], AbstractContextManager[Report]]  # yields what takes how many are done
+    spread: Spread = IN_TURN  # by what pieces are done that a step or a search consists of
 
 
 def as_they_come(steps: Iterator[Step], _what: str) -> Iterator[Step]:
@@ -29,24 +26,11 @@ def as_they_come(steps: Iterator[Step], _what: str) -> Iterator[Step]:
     return steps
 
 
-def spread_quietly(workers: int, _what: str) -> Spreading:
-    """Return a way to do work on items in so many processes; one is this process itself."""
-
-    def spread(work: Work, items: Sequence[Any]) -> Iterator[Any]:
-        if workers == 1:
-            yield from map(work, items)
-            return
-        with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-            yield from pool.map(work, items)
-
-    return spread
-
-
 QUIET = Waiting(
     as_they_come,
     doing=lambda _what: nullcontext(),
     search=lambda _what: nullcontext(lambda _share: None),
-    spread=spread_quietly,
+    many=lambda _what: uncounted(),
 )
 
 

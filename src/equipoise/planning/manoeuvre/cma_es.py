@@ -12,7 +12,7 @@ that it begins in. So
 The same seed finds the same. There may be a better minimum elsewhere.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -24,6 +24,9 @@ from equipoise.model.arrays import Floats
 SIDE_BY_SIDE = 4  # chosen: of the best first choices, the best is seldom the one that ends best
 SHARE = 0.1  # of all trials, chosen: for each before the best goes on
 WIDTH = 0.08  # chosen: sd of first steps; at 0.2 the merit of a first choice was lost
+
+
+Worths = Callable[[Sequence[Floats]], Iterable[float]]  # of choices that do not rest on each other
 
 
 class Tried(NamedTuple):
@@ -46,10 +49,10 @@ class Evolution:
         """Say whether it would find nothing more."""
         return self.strategy.should_stop()
 
-    def go_on(self, worth: Callable[[Floats], float]) -> int:
+    def go_on(self, worths: Worths) -> int:
         """Try one generation, and return how many trials that took."""
         requested = [self.strategy.ask() for _ in range(self.strategy.population_size)]
-        tried = [Tried(worth(numbers), numbers) for numbers in requested]
+        tried = list(map(Tried, worths(requested), requested))
         self.strategy.tell([(each.numbers, each.worth) for each in tried])
         self.best = min(self.best, *tried, key=lambda each: each.worth)
         self.trials += len(tried)
@@ -63,7 +66,7 @@ def begun(first: Tried, seed: int) -> Evolution:
 
 
 def least(
-    worth: Callable[[Floats], float],
+    worths: Worths,
     first: Sequence[Floats],
     trials: int,
     seed: int,
@@ -71,15 +74,15 @@ def least(
 ) -> Floats:
     """Return the best numbers found; ``on_progress`` receives the completed share of the trials."""
     tried: list[Tried] = []
-    for numbers in first:
-        tried.append(Tried(worth(numbers), numbers))
+    for each in map(Tried, worths(first), first):
+        tried.append(each)
         on_progress(len(tried) / max(trials, len(first)))
     tried.sort(key=lambda each: each.worth)
     running = [begun(each, seed + k) for k, each in enumerate(tried[:SIDE_BY_SIDE])]
     done = len(tried)
     while done < trials and (going := [each for each in running if not each.settled]):
         young = [each for each in going if each.trials < SHARE * trials]
-        done += (young or [best_of(going)])[0].go_on(worth)
+        done += (young or [best_of(going)])[0].go_on(worths)
         on_progress(min(done / trials, 1.0))
     return best_of(running).best.numbers
 

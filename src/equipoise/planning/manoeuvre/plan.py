@@ -15,8 +15,9 @@ It finds a good manoeuvre, not the best: with another seed the sd of the worst p
 a tenth. The limits of ``predicted_information`` apply.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -60,6 +61,18 @@ class Wish:
     params: Params
     prior: Prior
     known: Known | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trials:
+    """How many manoeuvres are tried, by what, and what receives the share that is done."""
+
+    count: int = TRIALS
+    spread: Callable[[Callable[[Floats], float], Sequence[Floats]], Iterable[float]] = map
+    on_progress: Callable[[float], None] = lambda done: None
+
+
+USUAL = Trials()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,18 +134,15 @@ def merit(search: Search, manoeuvre: Manoeuvre) -> float:
     return score(np.mean(each, axis=0), size, wish.criterion) + STIFF * beyond
 
 
-def planned(
-    space: Space,
-    wish: Wish,
-    seed: int,
-    trials: int = TRIALS,
-    on_progress: Callable[[float], None] = lambda done: None,
-) -> Manoeuvre:
-    """Return the best manoeuvre found; ``on_progress`` receives the completed share."""
+def planned(space: Space, wish: Wish, seed: int, trials: Trials = USUAL) -> Manoeuvre:
+    """Return the best manoeuvre found."""
     search = search_for(space, wish, seed)
-    first = first_choices(space, max(int(FIRST_TRIED * trials), 1), np.random.default_rng(seed))
+    few = max(int(FIRST_TRIED * trials.count), 1)
+    first = first_choices(space, few, np.random.default_rng(seed))
+    worths = partial(trials.spread, partial(worth, search))
+    return chosen(space, least(worths, first, trials.count, seed, trials.on_progress))
 
-    def worth(numbers: Floats) -> float:
-        return merit(search, chosen(space, numbers))
 
-    return chosen(space, least(worth, first, trials, seed, on_progress))
+def worth(search: Search, numbers: Floats) -> float:
+    """Return the cost of the manoeuvre that numbers choose."""
+    return merit(search, chosen(search.space, numbers))

@@ -13,7 +13,7 @@ import numpy as np
 
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass
 from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
-from equipoise.planning.sizing.budget import budget_of
+from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.case import Case
 
 VectorSensor = Accelerometer | SunSensor | Magnetometer
@@ -122,10 +122,13 @@ def changes(case: Case) -> Iterator[Change]:
     yield from surrounding_changes(case)
 
 
-def what_to_buy(case: Case) -> tuple[Bettered, ...]:
-    """Return all changes, the one that leaves least first; of equals the one with more reach."""
-    found = list[Bettered]()
-    for change in changes(case):
-        budget = budget_of(change.case)
-        found.append(Bettered(change.name, change.line, budget.torque, budget.within))
+def what_to_buy(all_: Iterable[Change], budgets: Iterable[Budget]) -> tuple[Bettered, ...]:
+    """Return changes by their budgets, the one that leaves least first.
+
+    Of equals the one with more reach comes first.
+    """
+    found = [
+        Bettered(change.name, change.line, budget.torque, budget.within)
+        for change, budget in zip(all_, budgets, strict=True)
+    ]
     return tuple(sorted(found, key=lambda b: (b.torque, -b.within)))

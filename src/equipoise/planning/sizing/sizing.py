@@ -3,7 +3,7 @@
 The budget and its possible improvements are those of the shortest record; the others stand beside.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from equipoise.model.presentation import Plotted
@@ -13,7 +13,9 @@ from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.limits import limit_sentence, reach_sentence, verdict
 from equipoise.planning.sizing.mass_steps import MassStep, mass_steps
 from equipoise.planning.sizing.reachable_set import Reach, reach_of
-from equipoise.planning.sizing.sensitivity import Bettered, what_to_buy
+from equipoise.planning.sizing.sensitivity import Bettered, changes, what_to_buy
+
+Spread = Callable[[Callable[[Case], Budget], Sequence[Case]], Iterable[Budget]]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -36,18 +38,24 @@ class Sizing(Plotted):
         return self.budgets[0]
 
 
-def sized(case: Case, records: Sequence[float], required: float | None) -> Sizing:
-    """Return the design of a case, for records of several lengths (s)."""
+def sized(
+    case: Case, records: Sequence[float], required: float | None, spread: Spread = map
+) -> Sizing:
+    """Return the design of a case, for records of several lengths (s).
+
+    ``spread`` computes budgets, none of which rests on another.
+    """
     cases = [replace(case, measurement_time=length) for length in sorted(records)]
-    budgets = tuple(budget_of(each) for each in cases)
-    judged, better = cases[0], what_to_buy(cases[0])
+    judged, possible = cases[0], list(changes(cases[0]))
+    found = list(spread(budget_of, [*cases, *(change.case for change in possible)]))
+    budgets, better = found[: len(cases)], what_to_buy(possible, found[len(cases) :])
     reach = reach_of(case.testbed.masses, case.testbed.body.mass)
     return Sizing(
         judged,
         required,
         reach,
         mass_steps(case.testbed, case.tilt),
-        budgets,
+        tuple(budgets),
         better,
         reach_sentence(reach, budgets[0].within),
         limit_sentence(judged, budgets[0], better),

@@ -5,15 +5,18 @@ usable by itself is left out, which the estimate says. The method is the traject
 """
 
 from collections import Counter
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from equipoise.assessment.plausibility.estimated_body import with_plausibility
+from equipoise.estimation.events.record_model import RecordModel
 from equipoise.estimation.joint.joint_estimate import Run, estimate_jointly
 from equipoise.estimation.methods.trajectory import params_of
 from equipoise.estimation.model_selection.reference_fit import modelled
-from equipoise.estimation.output_error.trajectory import METHOD
+from equipoise.estimation.output_error.trajectory import METHOD, Params
 from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
 from equipoise.model.joint_estimate import JointEstimate
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.reasons.step_reasons import StepReason
@@ -23,22 +26,28 @@ from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.identify import IdentifyOptions
 from equipoise.procedure.steps.clean_record import sound
 
+Alone = tuple[RecordModel | None, Estimate]  # a recording's model and estimate, by itself
+Spread = Callable[[Callable[[Recording], Alone], Sequence[Recording]], Iterable[Alone]]
+
 
 def identify_runs(
-    recordings: Sequence[Recording], testbed: Testbed, options: IdentifyOptions
+    recordings: Sequence[Recording],
+    testbed: Testbed,
+    options: IdentifyOptions,
+    spread: Spread = map,
 ) -> Generator[Step, None, JointEstimate]:
     """Yield an estimate of each run, then that of all together with the verdict.
 
-    Raises InputError for another method, and for a recording that is given twice.
+    ``spread`` estimates the runs, none of which rests on another. Raises InputError for another
+    method, and for a recording that is given twice.
     """
     check_method(options.method)
     check_distinct(recordings)
     params, runs = params_of(testbed, options.requested), list[Run]()
-    for name, recording in zip(names_of(recordings), recordings, strict=True):
-        of_this = replace(params, budget=params.budget.renewed())
-        rows, platform = sound(recording, testbed)
-        model, found = modelled(rows, platform, of_this)
-        estimate = with_plausibility(found, rows, platform)
+    found = spread(partial(estimated, testbed, params), recordings)
+    for name, recording, (model, estimate) in zip(
+        names_of(recordings), recordings, found, strict=True
+    ):
         runs.append(Run(name, recording.sha256, model, estimate))
         reasons = (Reason(StepReason.RUN_ESTIMATED, (name,)), *estimate.outcome.reasons)
         yield Step("estimate", recording.span[1], reasons, recording, estimate)
@@ -47,6 +56,14 @@ def identify_runs(
     reasons, kind = joint.verdict.reasons, "verify" if joint.verdict.passed else "stop"
     yield Step(kind, end, reasons, estimate=joint.estimate, verdict=joint.verdict)
     return joint
+
+
+def estimated(testbed: Testbed, params: Params, recording: Recording) -> Alone:
+    """Return the model of one recording and its estimate."""
+    of_this = replace(params, budget=params.budget.renewed())
+    rows, platform = sound(recording, testbed)
+    model, found = modelled(rows, platform, of_this)
+    return model, with_plausibility(found, rows, platform)
 
 
 def check_method(name: str) -> None:
