@@ -10,7 +10,7 @@ import sys  # noqa: E402
 from rich.console import Console  # noqa: E402
 from rich.table import Table  # noqa: E402
 
-from benchmarks import doors, fits, others, steps  # noqa: E402
+from benchmarks import commands, doors, fits, others, steps  # noqa: E402
 
 CUT = 2.0  # s between cuts, chosen: a short record then has a few, a long one thousands
 console = Console(width=110)
@@ -69,6 +69,17 @@ def show_others() -> None:
                       f"({1e3 / together:.2f} ms a fit).")  # fmt: skip
 
 
+def show_commands() -> None:
+    """Print what whole commands cost."""
+    table = Table(title="Commands, from their start to their end")
+    for title in ("command", "processor s", "wanted, at most", "peak MiB"):
+        table.add_column(title, justify="left" if title == "command" else "right")
+    for command, cost in commands.table():
+        cells = (f"{cost.processor:.2f}", f"{command.wanted:g}", f"{cost.memory:.0f}")
+        table.add_row(command.what, *cells)
+    console.print(table)
+
+
 def show_doors() -> None:
     """Print what a person waits for."""
     table = Table(title="At the doors")
@@ -89,3 +100,4 @@ if __name__ == "__main__":
     show_steps()
     show_others()
     show_doors()
+    show_commands()

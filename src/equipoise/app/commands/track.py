@@ -51,7 +51,7 @@ def track(
     from equipoise.app.arguments.checks import positive
     from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.console.rich_blocks import show
-    from equipoise.app.runs import camera_tracking
+    from equipoise.app.runs.captures import camera_tracking
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.format_registry import format_to_write
     from equipoise.io.recording.recording_file import write_recording
