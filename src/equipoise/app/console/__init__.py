@@ -1,1 +1,1 @@
-"""The terminal: rendering, questions, notices, worker processes."""
+"""The terminal: rendering, questions, notices, progress."""
