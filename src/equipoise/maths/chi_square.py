@@ -11,6 +11,6 @@ def chi_square_limit(freedom: int, chance: float) -> float:
     return float(scipy.special.chdtri(freedom, chance))
 
 
-def chi_square_chance(freedom: int, value: float) -> float:
+def chi_square_chance(freedom: int | float, value: float) -> float:
     """Return the chance, 0 to 1, that a chi-square exceeds a value."""
     return float(scipy.special.chdtrc(freedom, value))

@@ -7,8 +7,9 @@ one while the other waits (``maths.kernels.kernel_lock``).
 import shlex
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 from equipoise.model.errors import InputError
@@ -41,15 +42,15 @@ def rehearsed(folder: Path, workers: int) -> Iterator[str]:
     """Yield the commands as they end, run in a folder that may be emptied afterwards."""
     with ThreadPoolExecutor(workers) as pool:
         for lines in (RECORDS, COMMANDS):
-            yield from pool.map(lambda line: _run(shlex.split(line), folder), lines)
+            yield from pool.map(partial(_run, folder), lines)
 
 
-def _run(arguments: Sequence[str], folder: Path) -> str:
-    words = [sys.executable, "-m", "equipoise", *arguments]
+def _run(folder: Path, line: str) -> str:
+    words = [sys.executable, "-m", "equipoise", *shlex.split(line)]
     ended = subprocess.run(
         words, cwd=folder, capture_output=True, text=True, timeout=MOST, check=False
     )
-    command = shlex.join(["equipoise", *arguments])
     if ended.returncode not in SPOKE:
-        raise InputError(command, f"exit code {ended.returncode}: {ended.stderr[-300:]}", "0 or 1")
-    return command
+        found = f"exit code {ended.returncode}: {ended.stderr[-300:]}"
+        raise InputError(f"equipoise {line}", found, "0 or 1")
+    return line
