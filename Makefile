@@ -65,7 +65,7 @@ rooms: $(TEST)  ## draw the picture of the rooms in docs/architecture.md
 # Kernels for this Python on every x86-64 processor since 2015 or so; others compile their own.
 wheel: $(TEST) $(VENDORED)  ## build a wheel in dist, with kernels compiled ahead
 	@rm -rf build/kernels $(KERNELS)
-	@NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES= NUMBA_CACHE_DIR=build/kernels $(BIN)/equipoise precompile
+	@NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES= NUMBA_CACHE_DIR=$(abspath build/kernels) $(BIN)/equipoise precompile
 	@cp -r build/kernels/equipoise-kernels $(KERNELS)
 	@$(BIN)/python -m hatchling build --target wheel
 

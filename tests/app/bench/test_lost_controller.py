@@ -137,6 +137,7 @@ def test_a_keeper_leaves_signals_to_its_commander_and_ends_with_it():
         for number in STOPPING:
             os.kill(keeper.pid, number)
         assert [each.device for each in bench.health()] == ["board masses", "sensor imu"]
+    keeper.join(30.0)  # a computer that is busy ends it later
     assert keeper.exitcode == 0
 
 
