@@ -2,15 +2,17 @@
 
 import os
 
-for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(name, "1")  # small matrices: threads of the library only get in the way
+from equipoise.app.engine.worker_processes import ONE_THREAD
 
-import sys  # noqa: E402
+# Before anything loads NumPy. Small matrices: threads of the library only get in the way.
+os.environ.update(ONE_THREAD | os.environ)
 
-from rich.console import Console  # noqa: E402
-from rich.table import Table  # noqa: E402
+import sys
 
-from benchmarks import commands, doors, fits, others, steps  # noqa: E402
+from rich.console import Console
+from rich.table import Table
+
+from benchmarks import commands, doors, fits, others, steps
 
 CUT = 2.0  # s between cuts, chosen: a short record then has a few, a long one thousands
 console = Console(width=110)

@@ -23,6 +23,7 @@ from typing import Any
 
 from rich.console import Console
 
+from equipoise.app.engine.worker_processes import ONE_THREAD
 from tests.schema_change.inputs import Case, chosen
 
 Document = dict[str, Any]
@@ -30,7 +31,6 @@ Document = dict[str, Any]
 PROGRAM = "equipoise.app.cli"
 CONSOLE = Console(stderr=True, highlight=False, soft_wrap=True)
 COMPLETED = (0, 1)  # done, and the answer is good or not
-THREADS = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
 
 
 class RunFailed(Exception):
@@ -50,7 +50,7 @@ class Program:
         return subprocess.run(
             [sys.executable, *words],
             cwd=self.folder,
-            env=os.environ | THREADS | own,
+            env=os.environ | ONE_THREAD | own,
             capture_output=True,
             encoding="utf-8",
             check=False,

@@ -32,6 +32,12 @@ def test_a_command_that_fails_is_named(equipoise, monkeypatch):
     assert "exit code 2" in done.err
 
 
+def test_no_workers_are_refused(equipoise):
+    done = equipoise("precompile", "--workers", 0)
+    assert done.code == 2
+    assert "--workers" in done.err
+
+
 @thorough.whole
 def test_all_lines_run(equipoise):
     done = equipoise("precompile")

@@ -94,10 +94,10 @@ def plan(
     from equipoise.app.runs.terminal_waiting import at_terminal_by
     from equipoise.app.views.plan_views import output_of
 
-    drawn = checks.seed_of(seed)
     request = Request(
-        bed, duration, quantity, criterion, count, rate, requested, earlier, tries, drawn
-    )
+        bed, duration, quantity, criterion, count, rate, requested, earlier, tries,
+        checks.seed_of(seed),
+    )  # fmt: skip
     with at_terminal_by(engine) as waiting:
         done = run(request, waiting)
     hand_over(output_of(done), json, out)

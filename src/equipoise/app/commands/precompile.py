@@ -1,9 +1,10 @@
 """`equipoise precompile`: all kernels, before somebody waits for them."""
 
-from equipoise.app.console.terminal import counted, print_whole
+from equipoise.app.arguments.options import Whole
+from equipoise.app.console.terminal import counted_pieces, print_whole
 
 
-def precompile(*, workers: int | None = None) -> int:
+def precompile(*, workers: Whole | None = None) -> int:
     """Compile everything that is compiled now, so that no later command waits for it.
 
     Kernels are compiled once on a computer, by the first command that needs them. This runs every
@@ -18,17 +19,20 @@ def precompile(*, workers: int | None = None) -> int:
     from pathlib import Path
     from tempfile import TemporaryDirectory
 
+    from equipoise.app.arguments.checks import positive
     from equipoise.app.runs.kernel_rehearsal import COMMANDS, RECORDS, rehearsed
     from equipoise.maths.kernels.kernel_cache import kernels_folder
     from equipoise.model.units import MEGABYTE
 
     count = len(RECORDS) + len(COMMANDS)
+    at_once = (os.cpu_count() or 1) if workers is None else int(positive("--workers", workers))
     with (
         TemporaryDirectory(prefix="equipoise-") as folder,
-        counted("compiling kernels, once on this computer") as share,
+        counted_pieces("compiling kernels, once on this computer") as report,
     ):
-        for k, _ in enumerate(rehearsed(Path(folder), workers or os.cpu_count() or 1)):
-            share((k + 1) / count)
+        report(0, count)
+        for done, _ in enumerate(rehearsed(Path(folder), at_once), 1):
+            report(done, count)
     kept = [path.stat().st_size for path in kernels_folder().rglob("*.nbc")]
     print_whole(
         f"{len(kept)} kernels, {sum(kept) / MEGABYTE:.1f} MB, are kept in {kernels_folder()}."

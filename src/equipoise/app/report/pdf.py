@@ -16,6 +16,7 @@ TEMPLATE = "page.typ"
 ALONE = b"""#set page(width: auto, height: auto, margin: 0pt)
 #image("drawing.svg")
 """
+AS_PNG = "a figure as PNG"
 WITH_TYPST = "the report extra: `pip install equipoise[report]`"
 PPI = 300.0  # pixels an inch, chosen: what journals want of pictures with lines
 
@@ -33,17 +34,17 @@ def pdf(document: Document, drawings: Drawings) -> bytes:
     source = (files("equipoise.app.report") / TEMPLATE).read_bytes()
     parts = {f"{name}.svg": drawing for name, drawing in drawings.items()}
     inputs = {"page": json.dumps(for_typst(asdict(document)))}
-    return _set({"main.typ": source, **parts}, sys_inputs=inputs)
+    return _set("the report as PDF", {"main.typ": source, **parts}, sys_inputs=inputs)
 
 
 def png(drawing: bytes) -> bytes:
     """Return an SVG as a PNG of ``PPI``; InputError where typst is not there, or cannot set it."""
     if not can_set():
-        raise InputError("a figure as PNG", "typst is not installed", WITH_TYPST)
-    return _set({"main.typ": ALONE, "drawing.svg": drawing}, format="png", ppi=PPI)
+        raise InputError(AS_PNG, "typst is not installed", WITH_TYPST)
+    return _set(AS_PNG, {"main.typ": ALONE, "drawing.svg": drawing}, format="png", ppi=PPI)
 
 
-def _set(sources: Mapping[str, bytes], **options: Any) -> bytes:
+def _set(what: str, sources: Mapping[str, bytes], **options: Any) -> bytes:
     import typst
 
     compiled: Any = typst.compile  # its annotations know of one file only
@@ -51,4 +52,4 @@ def _set(sources: Mapping[str, bytes], **options: Any) -> bytes:
         return compiled(sources, **options)
     except typst.TypstError as error:
         wanted = "blocks and figures that it can set"
-        raise InputError("the report as PDF", f"typst's '{error}'", wanted) from error
+        raise InputError(what, f"typst's '{error}'", wanted) from error

@@ -67,19 +67,22 @@ def backward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> No
 
 
 @part
-def carried(F: Floats, changed: Ints, count: int, M: Floats, rows: Floats, out: Floats) -> None:
-    """Write F M, F being the unit matrix but for the rows ``changed``; ``rows`` is worked in."""
+def multiply_rows(F: Floats, M: Floats, count: int, out: Floats) -> None:
+    """Write the first rows of F M."""
     n = M.shape[0]
     for i in range(count):
-        rows[i] = 0.0
+        out[i] = 0.0
         for j in range(n):
-            add_scaled(F[i, j], M[j], rows[i], n)
-    for a in range(n):
-        for b in range(n):
-            out[a, b] = M[a, b]
+            add_scaled(F[i, j], M[j], out[i], n)
+
+
+@part
+def carried(F: Floats, changed: Ints, count: int, M: Floats, rows: Floats, out: Floats) -> None:
+    """Write F M, F being the unit matrix but for the rows ``changed``; ``rows`` is worked in."""
+    multiply_rows(F, M, count, rows)
+    copy_rows(M, out)
     for i in range(count):
-        for b in range(n):
-            out[changed[i], b] = rows[i, b]
+        copy_values(rows[i], out[changed[i]])
 
 
 @part
@@ -102,10 +105,8 @@ def onto_both(F: Floats, changed: Ints, count: int, C: Floats, rows: Floats, out
 def congruent(G: Floats, C: Floats, rows: Floats, m: int, out: Floats) -> None:
     """Write G C G^T, of the first m rows of G; ``rows`` is worked in."""
     n = C.shape[0]
+    multiply_rows(G, C, m, rows)
     for i in range(m):
-        rows[i] = 0.0
-        for j in range(n):
-            add_scaled(G[i, j], C[j], rows[i], n)
         for j in range(m):
             total = 0.0
             for c in range(n):
