@@ -9,7 +9,6 @@ from equipoise.actuators.sliding_masses import inertia_shift
 from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
-from equipoise.estimation.output_error.kernels.gauss_newton import local_for, pieces_at
 from equipoise.estimation.output_error.problem import posed
 from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import evaluate, freedom, settle, smooth_at
@@ -274,16 +273,13 @@ def test_gradient_in_the_jumps_is_that_of_the_cost(dense):
     """Chained backwards from the local models, g_k = b_k + F^T g_(k+1), against differences."""
     full, _, _ = dense
     point, jumps = full.at(full.here)
-    kernel = posed(full.problem)
-    at = local_for(kernel, point.flat)
-    at.pieces.jumps[:] = jumps
-    pieces_at(kernel, at)
-    g, slopes = at.pieces.descent[-1], []
+    pieces = settle(full.problem, point, jumps, 1).pieces
+    g, slopes = pieces.descent[-1], []
     for k in range(len(JUMPS) - 1, -1, -1):
         free = full.cuts.free[k][full.free[k]]
         slopes.append(g[free] - full.cuts.weight[k][full.free[k]] * jumps[k][full.free[k]])
-        F = np.vstack([at.pieces.onward[k], np.eye(full.n)[6:]])
-        g = at.pieces.descent[k] + F.T @ g
+        F = np.vstack([pieces.onward[k], np.eye(full.n)[6:]])
+        g = pieces.descent[k] + F.T @ g
 
     def cost(z):
         return evaluate(full.problem, *full.at(z)).cost
@@ -331,12 +327,7 @@ def test_covariance_of_every_stretch_is_of_the_dense_inverse(optimum):
     points = [unknowns_of(p) for p in after.points]
 
     def beginnings(z):
-        kernel = posed(fit.problem)
-        point, jumps = full.at(z)
-        at = local_for(kernel, point.flat)
-        at.pieces.jumps[:] = jumps
-        pieces_at(kernel, at)
-        there = [unknowns_of(p) for p in at.pieces.points]
+        there = [unknowns_of(p) for p in settle(fit.problem, *full.at(z), 1).pieces.points]
         return np.array([separation(fit.problem, a, b) for a, b in zip(points, there, strict=True)])
 
     by_z = full.by_z(beginnings, full.sizes())

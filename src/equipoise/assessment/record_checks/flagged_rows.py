@@ -1,6 +1,7 @@
 """Rows of the sensors that stand out: outlying or frozen, as masks and as findings."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,11 +35,13 @@ class OddRows:
         return self.outlying.mask | self.frozen
 
 
+@lru_cache(maxsize=1)  # found, then left out: by identity
 def odd_attitudes(attitude: Samples) -> OddRows:
     """Return what stands out among the rows of an attitude sensor."""
     return OddRows(outlying_attitudes(attitude), frozen_attitudes(attitude))
 
 
+@lru_cache(maxsize=1)  # as ``odd_attitudes``
 def odd_rates(rate: Samples) -> OddRows:
     """Return what stands out among the rows of a gyro."""
     return OddRows(outlying_rates(rate), frozen_rates(rate))

@@ -6,12 +6,14 @@ count. When they are known, by restricted maximum likelihood, which uses every r
 
     walk^2 <- walk^2  sum u^2/sd^2 / sum (1 - C/sd^2),     noise^2 <- sum e^2 / (rows - unknowns)
 
-with jumps u of smoothed covariance C (the fixed point of Helmert 1924; MacKay 1992).
+with jumps u of smoothed covariance C (the fixed point of Helmert 1924; MacKay 1992). Both go to
+their root by secant steps of ln walk. A walk that amounts to next to no unknown is left there.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import count
+from typing import NamedTuple
 
 import numpy as np
 
@@ -40,6 +42,7 @@ from equipoise.estimation.output_error.solution import Fitted, freedom
 from equipoise.estimation.output_error.trajectory import problem_of
 from equipoise.estimation.parameters.fit_parameters import RATE
 from equipoise.estimation.search_budget import Stage
+from equipoise.maths.secant_steps import Evaluated, secant_step
 from equipoise.model.arrays import Bools, Floats, Series1, Vector3
 from equipoise.model.estimate import RATE as RATES
 from equipoise.model.testbed import Testbed
@@ -49,8 +52,10 @@ MEDIAN, MEDIAN_1 = 2.365973884375338, 0.454936423119572  # of chi-square of 3 an
 CALM, CHANCE = 0.1, 1.0  # chosen: noise known to 10 % is known; 1 / sqrt(rows), 1.7 sd of a median
 CALIBRATIONS = 12
 BEST = 0.02  # chosen: no sensor is fifty times better than stated
-BOLDEST = 5.0  # factor by which a noise is changed at once
+BOLDEST = 5.0  # factor by which a noise is changed at once; process noise lowered by its square
 STEPS = 8
+SETTLED = 0.02  # of ln of a noise, chosen: intervals change by a hundredth
+IDLE = 0.1  # unknowns, chosen: process noise that amounts to less changes no estimate
 STRETCH = 1.0  # s, chosen: camera rows within tell the rate, torques do not turn it by much
 LEAST = 1e-3  # chosen: of the greatest process noise, so that no sd is zero
 PRICE = 9.0  # chosen: -2 ln probability that process noise about three axes must gain
@@ -154,40 +159,72 @@ def excesses(after: Smoothed, calm: Bools) -> Vector3:
 
 def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitted]:
     """Return the model with process noise and sensor noise as the record has them."""
+    before: Evaluated | None = None
     for calibration in count():
         model = refitted(model)
         fit, after = smoothed(model)
         calm = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
-        surprise, excess = surprises(calm, after), excesses(after, calm)
         factors = noise_factors(fit, after)
-        steady = not model.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
+        excess = np.log(np.maximum(excesses(after, calm), 1e-9))
+        idle = (excess < 0) & (explained(fit, after).freedom < IDLE)
+        steady = not model.wanders or bool(np.all((np.abs(excess) < CALM) | idle))
         found = (steady and are_known(factors, fit)) or calibration >= CALIBRATIONS
         if found or not model.may(Stage.NOISE):
-            return model, surprise, fit
-        bold = np.clip(excess, 1 / BOLDEST, BOLDEST)
+            return model, surprises(calm, after), fit
+        walk, before = stepped(model.walk, excess, before)
         testbed = noisier(model, *np.clip(factors, 1 / BOLDEST, BOLDEST))
-        model = replace(model, walk=model.walk * bold, testbed=testbed)
+        model = replace(model, walk=walk, testbed=testbed)
     raise AssertionError  # counting does not end
 
 
-def likelier(model: RecordModel) -> RecordModel:
-    """Return the model with noise and process noise one step nearer to the likeliest.
+def stepped(
+    walk: Vector3, excess: Vector3, before: Evaluated | None
+) -> tuple[Vector3, Evaluated | None]:
+    """Return the next process noise to try, given by how much ln of it is too small, and why."""
+    if not np.all(walk > 0):
+        return walk, None
+    now = Evaluated(np.log(walk), excess)
+    bold = np.log(BOLDEST)
+    return walk * np.exp(np.clip(secant_step(now, before), -2 * bold, bold)), now
 
-    What a variance explains over what it is free to: sum u^2 / sd^2 over sum (1 - C / sd^2) for
-    jumps u of smoothed covariance C, and sum e^2 over the rows less all that was sought (the
-    fixed point of restricted maximum likelihood; MacKay 1992, Helmert 1924).
-    """
-    fit, after = smoothed(model)
+
+class Explained(NamedTuple):
+    """What process noise about each body axis explains, and how many unknowns it amounts to."""
+
+    square: Vector3  # sum u^2 / sd^2
+    freedom: Vector3  # sum (1 - C / sd^2)
+
+
+def explained(fit: Fitted, after: Smoothed) -> Explained:
+    """Return what process noise explains in a fit: all zero where there is none."""
     noise, sd = process_noise(fit)
     if not any(noise):
-        return model
+        return Explained(np.zeros(3), np.zeros(3))
     u, spread = fit.jumps[noise, :3], np.einsum("kaa->ka", after.jump_covariance[noise, :3, :3])
-    reported = np.maximum(np.sum(1 - spread / sd**2, axis=0), 1e-9)
-    walk = model.walk * np.sqrt(np.sum(u**2 / sd**2, axis=0) / reported)
-    walk = np.maximum(walk, LEAST * walk.max())
-    share = free_share(fit, after)
-    factors = [float(np.sqrt(np.mean(e) / 3 / share)) if len(e) else 1.0 for e in misfits(fit)]
-    return refitted(replace(model, walk=walk, testbed=noisier(model, *factors)))
+    return Explained(np.sum(u**2 / sd**2, axis=0), np.sum(1 - spread / sd**2, axis=0))
+
+
+def likeliest(model: RecordModel) -> RecordModel:
+    """Return the model with the likeliest noise and process noise, as far as ``STEPS`` lead.
+
+    What a variance explains is what it is free to: sum u^2 / sd^2 and sum (1 - C / sd^2) for
+    jumps u of smoothed covariance C, and sum e^2 and the rows less all that was sought (the
+    fixed point of restricted maximum likelihood; MacKay 1992, Helmert 1924).
+    """
+    before: Evaluated | None = None
+    for _ in range(STEPS):
+        fit, after = smoothed(model)
+        square, freedom = explained(fit, after)
+        share = free_share(fit, after)
+        factors = [float(np.sqrt(np.mean(e) / 3 / share)) if len(e) else 1.0 for e in misfits(fit)]
+        excess = 0.5 * np.log(np.maximum(square, 1e-9) / np.maximum(freedom, 1e-9))
+        steady = np.all((np.abs(excess) < SETTLED) | (freedom < IDLE))
+        if (steady and np.all(np.abs(np.log(factors)) < SETTLED)) or not model.may(Stage.NOISE):
+            break
+        walk, before = stepped(model.walk, excess, before)
+        walk = np.maximum(walk, LEAST * walk.max())
+        model = refitted(replace(model, walk=walk, testbed=noisier(model, *factors)))
+    return model
 
 
 def weighed(record_model: RecordModel) -> RecordModel:
@@ -198,11 +235,9 @@ def weighed(record_model: RecordModel) -> RecordModel:
     """
     if not (record_model.wanders and record_model.may(Stage.NOISE)):
         return record_model
-    trial = refitted(replace(record_model, walk=0.3 * record_model.walk))
-    for _ in range(STEPS):
-        if not trial.may(Stage.NOISE):
-            return record_model
-        trial = likelier(trial)
+    trial = likeliest(refitted(replace(record_model, walk=0.3 * record_model.walk)))
+    if not trial.may(Stage.NOISE):
+        return record_model
     bare = refitted(replace(trial, walk=np.zeros(3)))
     for _ in range(3):
         fit, after = smoothed(bare)

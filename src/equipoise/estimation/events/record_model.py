@@ -4,6 +4,7 @@ Process noise is a torque that wanders, as white noise of density ``walk`` about
 axis; over a stretch of length dt it jumps the rate by walk_i sqrt(dt) / J_ii.
 """
 
+import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -14,14 +15,13 @@ from equipoise.estimation.events.jump_test import KINDS, threshold
 from equipoise.estimation.motion.observed_vectors import observed
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
-from equipoise.estimation.output_error.kernels.segments import count_free
 from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.output_error.segment_jumps import Jump, carried, inside, walk
 from equipoise.estimation.output_error.solution import Fitted, cost_of, finite_cost, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.estimation.parameters.fit_parameters import Unknowns, with_errors_of
 from equipoise.estimation.search_budget import Stage
-from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
+from equipoise.model.arrays import Bools, Floats, Series1, Vector3
 from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -89,14 +89,14 @@ class Rival(NamedTuple):
 
 def jumps_of(model: RecordModel, cuts: Series1) -> tuple[Jump, ...]:
     """Return the jumps of a model: process noise, events, and cuts where nothing may jump."""
-    at_event = [event.t for event in model.events]
-    plain = cuts[[all(abs(t - s) > 1e-9 for s in at_event) for t in cuts]]
+    at_event = np.array([event.t for event in model.events])
+    plain = cuts[np.all(np.abs(cuts[:, None] - at_event) > 1e-9, axis=1)]
     if model.wanders:
         moments = np.diag(model.testbed.body.inertia_P)
         sd = model.walk * np.sqrt(model.spacing) / moments
         noise = walk(plain, RATE, sd)
     else:
-        noise = tuple(Jump(float(t), (), ()) for t in plain)
+        noise = tuple(Jump(t, (), ()) for t in plain.tolist())
     return inside((*noise, *(event.jump for event in model.events)), *model.recording.span)
 
 
@@ -124,8 +124,8 @@ def fitted_in(
     ``moved``: where the events were in the fit that the model holds, if elsewhere.
     """
     now = {old.t: event.t for old, event in zip(moved, model.events, strict=bool(moved))}
-    jumps = model.fitted.problem.jumps
-    old = tuple(replace(jump, t=now.get(jump.t, jump.t)) for jump in jumps)
+    old = tuple(jump._replace(t=now.get(jump.t, jump.t)) if moved else jump
+                for jump in model.fitted.problem.jumps)  # fmt: skip
     problem, first = jumping(model, model.recording, jumps_of(model, cuts), old)
     return settle_pinned(problem, point_in(problem, model.fitted), first, most)
 
@@ -147,7 +147,9 @@ def active(model: RecordModel) -> Series1:
 
 def smoothed(model: RecordModel) -> tuple[Fitted, Smoothed]:
     """Return the fit with every cut in it, and what is known of every stretch."""
-    fit = fitted_in(model, model.cuts, 1)
+    fit = model.fitted
+    if not (model.wanders and jumps_of(model, model.cuts) == fit.problem.jumps):
+        fit = fitted_in(model, model.cuts, 1)
     return fit, smooth_at(fit)
 
 
@@ -198,16 +200,17 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
     for rows, sd in ((measured.attitude, measured.attitude_sd), (measured.rate, measured.rate_sd)):
         total += 6.0 * len(rows) * float(np.log(sd))
     total += 6.0 * float(np.sum(np.log(measured.vectors.sd[measured.vectors.sensor])))
-    cuts, jumps = posed(fit.problem).cuts, fit.problem.jumps
-    for k, (jump, free, weight) in enumerate(zip(jumps, cuts.free, cuts.weight, strict=True)):
-        a = count_free(free)
-        if not a:
-            continue
-        total -= log_det(after.firm[k, :a, :a])
-        if jump.is_event:
-            total += price * a / 3 + log_det(after.jump_covariance[k, :a, :a])
+    cuts = posed(fit.problem).cuts
+    counts = np.count_nonzero(cuts.free >= 0, axis=1)
+    events = np.array([jump.is_event for jump in fit.problem.jumps], dtype=bool)
+    for a, is_event in itertools.product(np.unique(counts[counts > 0]), (False, True)):
+        alike = (counts == a) & (events == is_event)
+        total -= log_det(after.firm[alike, :a, :a])
+        if is_event:
+            total += np.count_nonzero(alike) * price * a / 3
+            total += log_det(after.jump_covariance[alike, :a, :a])
         else:
-            total -= float(np.sum(np.log(weight[:a])))
+            total -= float(np.sum(np.log(cuts.weight[alike, :a])))
     return total
 
 
@@ -223,10 +226,14 @@ def improbability(model: RecordModel) -> float:
     return finite_cost(found)
 
 
-def log_det(matrix: Square) -> float:
-    """Return ln det of a positive definite matrix in any units; LinAlgError if it is not one."""
-    if not np.all(np.diag(matrix) > 0):
+def log_det(matrices: Floats) -> float:
+    """Return ln det of positive definite matrices (..., n, n) in any units, summed.
+
+    LinAlgError if one is not positive definite.
+    """
+    diagonal = np.diagonal(matrices, axis1=-2, axis2=-1)
+    if not np.all(diagonal > 0):
         raise np.linalg.LinAlgError("the matrix is not positive definite")
-    unit = 1 / np.sqrt(np.diag(matrix))
-    scaled = matrix * np.outer(unit, unit)
-    return float(np.linalg.slogdet(scaled)[1] - 2 * np.sum(np.log(unit)))
+    unit = 1 / np.sqrt(diagonal)
+    scaled = matrices * unit[..., :, None] * unit[..., None, :]
+    return float(np.sum(np.linalg.slogdet(scaled)[1]) - 2 * np.sum(np.log(unit)))

@@ -48,7 +48,7 @@ class Bound(NamedTuple):
 
 def ended_at(problem: Problem, point: Unknowns) -> Fitted:
     """Return the fit of a problem as if it had ended at a point, without jumps."""
-    return Fitted(problem, point, evaluate(problem, point), True, 1, np.zeros((0, 1)))
+    return replace(settle(problem, point, most=1), converged=True)
 
 
 def bound_at(fitted: Fitted, exact: Bools) -> Bound:

@@ -18,6 +18,7 @@ from equipoise.model.testbed import Testbed
 
 DAMPING = torque_terms.GROUPS["viscous"]
 MUCH_BETTER = 10.0  # chosen: times less is left; damping that stands for touches is no such help
+FARTHEST = np.log(100.0)  # of the ratio of mean moments, chosen: a guess is less wrong than that
 OUTLYING = 0.5  # chosen: of a moment, by which the guess may be off and its anchor biases nothing
 
 
@@ -63,11 +64,14 @@ def anchored(
     """Return the testbed with the body that was found, and the fit, where the guess was far off.
 
     What the data leave open is kept near the guess (``Prior``), within sizes taken from it: those
-    of a body ten times too small would pull at what the data do show.
+    of a body ten times too small would pull at what the data do show. A body that is hundreds of
+    times smaller than the guess is no body, but a fit that is lost.
     """
     found, guess = fitted.point.body(testbed.body.mass), testbed.body
     moved = np.diag(found.inertia_P - guess.inertia_P) / guess.mean_moment
     if params.use_prior or not is_close(fitted) or float(np.abs(moved).max()) < OUTLYING:
+        return testbed, fitted
+    if abs(np.log(found.mean_moment / guess.mean_moment)) > FARTHEST:
         return testbed, fitted
     nearer = replace(testbed, body=found)
     return nearer, fit(recording, nearer, params, fitted.point)

@@ -26,8 +26,6 @@ from equipoise.estimation.output_error.kernels.gauss_newton import (
     Local,
     Posed,
     add_priors,
-    local_for,
-    pieces_at,
 )
 from equipoise.estimation.output_error.kernels.segments import (
     Chain,
@@ -98,11 +96,9 @@ def improbability(posed: Posed, at: Local, weight: Floats) -> float:
 
 def linear_at(fitted: Fitted) -> tuple[Posed, Local]:
     """Return the local models of all stretches where a fit ended."""
-    problem = posed(fitted.problem)
-    at = local_for(problem, fitted.point.flat)
-    at.pieces.jumps[:] = fitted.jumps
-    pieces_at(problem, at)
-    return problem, at
+    at = fitted.at
+    return posed(fitted.problem), Local(fitted.point.flat, fitted.pieces, at.left_q, at.left_w,
+                                        at.left_v)  # fmt: skip
 
 
 def improbability_of(problem: Posed, at: Local, sd: Floats) -> float:

@@ -159,7 +159,8 @@ def parameters_of(
     values[TURN] = logarithm(fitted.point.q0)
     values += counted_by_timing(layout, problem.testbed)
     order = selection(layout)
-    rows, labels = np.eye(layout.size)[order], [(layout.names[k], layout.units[k]) for k in order]
+    every = tuple(zip(layout.names, layout.units, strict=True))
+    rows, labels = np.eye(layout.size)[order], [every[k] for k in order]
     reported = values[order]
     end = end_rows(fitted, after)
     fresh = np.zeros((len(rows) + 3, len(rows) + 3))

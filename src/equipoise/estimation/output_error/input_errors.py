@@ -30,6 +30,7 @@ are carried contradict each other, which would tell more of either: intervals ar
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -119,6 +120,8 @@ def platform_varied(recording: Recording, testbed: Testbed, part: float) -> Iter
     stronger = testbed.gravity * (1 + part * testbed.gravity_sd)
     yield Varied("gravity", testbed.gravity_sd, recording, replace(testbed, gravity=stronger))
     for i, mass in enumerate(masses):
+        if not mass.mass_sd > 0:
+            continue
         other = replace(mass, mass=mass.mass * (1 + part * mass.mass_sd))
         rest = replace(testbed, masses=(*masses[:i], other, *masses[i + 1 :]))
         yield Varied(weight_of(mass), mass.mass_sd, recording, rest)
@@ -132,11 +135,18 @@ def places_varied(recording: Recording, testbed: Testbed, part: float) -> Iterat
     rows = recording.masses
     if rows is None:
         return
-    for i, mass in enumerate(testbed.masses):
-        if is_logged_in_steps(rows.t, rows.values[:, i], mass):
-            aside = rows.values + part * mass.accuracy * np.eye(len(testbed.masses))[i]
-            other = replace(recording, masses=Samples(rows.t, aside))
-            yield Varied(f"position of mass {mass.name}", mass.accuracy, other, testbed)
+    for i in logged_in_steps(rows, testbed.masses):
+        mass = testbed.masses[i]
+        aside = rows.values + part * mass.accuracy * np.eye(len(testbed.masses))[i]
+        other = replace(recording, masses=Samples(rows.t, aside))
+        yield Varied(f"position of mass {mass.name}", mass.accuracy, other, testbed)
+
+
+@lru_cache(maxsize=2)  # asked to either side; by identity
+def logged_in_steps(rows: Samples, masses: tuple[SlidingMass, ...]) -> tuple[int, ...]:
+    """Return which masses are logged in steps."""
+    columns = zip(rows.values.T, masses, strict=True)
+    return tuple(i for i, (d, mass) in enumerate(columns) if is_logged_in_steps(rows.t, d, mass))
 
 
 def by_gyros_clock(recording: Recording, share: float) -> Recording:

@@ -5,7 +5,7 @@ solved. Names are those of the layout's coordinates, sizes are one sd in SI.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,8 +15,7 @@ from equipoise.estimation.parameters.fit_parameters import Layout
 from equipoise.model.arrays import Floats, Series1
 
 
-@dataclass(frozen=True, slots=True)
-class Jump:
+class Jump(NamedTuple):
     """At this time these coordinates may change at once."""
 
     t: float  # s
@@ -46,14 +45,16 @@ def width(jumps: tuple[Jump, ...]) -> int:
 
 def carried(old: tuple[Jump, ...], values: Floats, new: tuple[Jump, ...]) -> Floats:
     """Return the values of new jumps: those of old ones at the same time, else zero."""
-    known = {
-        (jump.t, name): value
-        for jump, row in zip(old, values, strict=True)
-        for name, value in zip(jump.names, row, strict=False)
-    }
-    out = np.zeros((len(new), width(new)))
+    out, before = np.zeros((len(new), width(new))), {jump.t: k for k, jump in enumerate(old)}
+    at = [before.get(jump.t, -1) for jump in new]
+    alike = [k >= 0 and old[k].names == jump.names for k, jump in zip(at, new, strict=True)]
+    rows = np.flatnonzero(alike)
+    known = min(out.shape[1], values.shape[1])
+    out[rows, :known] = values[np.array(at, dtype=np.int64)[rows], :known]
     for k, jump in enumerate(new):
-        out[k, : len(jump.names)] = [known.get((jump.t, name), 0.0) for name in jump.names]
+        if at[k] >= 0 and not alike[k]:
+            row = dict(zip(old[at[k]].names, values[at[k]], strict=False))
+            out[k, : len(jump.names)] = [row.get(name, 0.0) for name in jump.names]
     return out
 
 
@@ -80,10 +81,12 @@ def cuts_of(jumps: tuple[Jump, ...], t: Series1, layout: Layout) -> Cuts:
     most = width(jumps)
     free = np.full((len(jumps), most), -1, dtype=np.int64)
     weight: Floats = np.zeros((len(jumps), most))
-    precision = {sd: np.array(sd) ** -2.0 for sd in {jump.sd for jump in jumps}}  # few differ
+    alike: dict[tuple[tuple[str, ...], tuple[float, ...]], list[int]] = {}  # few differ
     for k, jump in enumerate(jumps):
-        free[k, : len(jump.names)] = [where[name] for name in jump.names]
-        weight[k, : len(jump.names)] = precision[jump.sd]
+        alike.setdefault((jump.names, jump.sd), []).append(k)
+    for (names, sd), rows in alike.items():
+        free[rows, : len(names)] = [where[name] for name in names]
+        weight[rows, : len(names)] = np.array(sd) ** -2.0
     inner = np.searchsorted(t, [jump.t - SAME for jump in jumps])
     nodes = np.concatenate([[0], inner, [len(t) - 1]]).astype(np.int64)
     return Cuts(nodes, free, weight)

@@ -6,7 +6,7 @@ import numpy as np
 
 from equipoise.estimation.output_error.kernels import gauss_newton
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed, smooth
-from equipoise.estimation.output_error.kernels.segments import count_free
+from equipoise.estimation.output_error.kernels.segments import Pieces
 from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.parameters.fit_parameters import Unknowns, unknowns_of
 from equipoise.estimation.search_budget import Stage
@@ -46,6 +46,7 @@ class Fitted:
     converged: bool
     evaluations: int
     jumps: Floats  # (K - 1, a) in the order of the problem's
+    pieces: Pieces  # the local models of its stretches
 
 
 def settle(
@@ -68,7 +69,7 @@ def settle(
             break
     at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w, best.left_v)
     return Fitted(problem, unknowns_of(best.point), at, ended.converged, done,
-                  best.pieces.jumps)  # fmt: skip
+                  best.pieces.jumps, best.pieces)  # fmt: skip
 
 
 def at_once(problem: Problem) -> int:
@@ -99,13 +100,11 @@ def cost_of(fit: Fitted) -> float:
 
 def smooth_at(fit: Fitted) -> Smoothed:
     """Return what is known of every stretch at an optimum, with the priors of the problem."""
-    return smooth(posed(fit.problem), fit.point.flat, fit.jumps, inverse_spd(fit.at.normal))
+    return smooth(posed(fit.problem).cuts, fit.pieces, inverse_spd(fit.at.normal))
 
 
 def freedom(fit: Fitted, after: Smoothed) -> float:
     """Return how many unknowns the jumps amount to: sum of 1 - posterior / prior variance."""
-    cuts, total = posed(fit.problem).cuts, 0.0
-    for free, weight, spread in zip(cuts.free, cuts.weight, after.jump_covariance, strict=True):
-        a = count_free(free)
-        total += a - float(np.sum(weight[:a] * np.diag(spread)[:a]))
-    return total
+    cuts = posed(fit.problem).cuts
+    spread = np.diagonal(after.jump_covariance, axis1=1, axis2=2)
+    return float(np.sum(np.where(cuts.free >= 0, 1.0 - cuts.weight * spread, 0.0)))

@@ -10,11 +10,7 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.events.jump_test import disturbances
-from equipoise.estimation.output_error.kernels.interval_smoother import (
-    Smoothed,
-    backward_pass,
-    forward_pass,
-)
+from equipoise.estimation.output_error.kernels.interval_smoother import smooth
 from equipoise.estimation.output_error.kernels.segments import (
     STATE,
     Cuts,
@@ -136,22 +132,11 @@ def test_jump_cost_by_hand():
 # --- The smoother ---------------------------------------------------------------------------------
 
 
-def smoothed(cuts, pieces, first):
-    """Return what ``smoothing.smooth`` makes of local models."""
-    K, a = cuts.free.shape
-    out = Smoothed(np.zeros((K + 1, N, N)), np.zeros((K + 1, N)), np.zeros((K + 1, N, N)),
-                   np.zeros((K, a, a)), pieces.points, np.eye(N), np.zeros((K, a, a)))  # fmt: skip
-    chain = chain_for(cuts, N)
-    backward_pass(cuts, pieces, chain, out)
-    forward_pass(cuts, pieces, chain, first, out)
-    return out
-
-
 @pytest.fixture
 def measured(chained):
     cuts, pieces, full = chained
     spread = np.linalg.inv(full.A)
-    return cuts, pieces, full, spread, smoothed(cuts, pieces, spread[:N, :N])
+    return cuts, pieces, full, spread, smooth(cuts, pieces, spread[:N, :N])
 
 
 def test_covariance_of_every_stretch_is_of_the_dense_inverse(measured):
@@ -220,7 +205,7 @@ def test_surprise_is_what_a_free_jump_gains(chained, k, coordinates):
     at = optimum(cuts, pieces, full)
     here = dense(cuts, at)
     assert np.abs(here.b).max() < 1e-9
-    found = disturbances(smoothed(cuts, at, np.linalg.inv(here.A)[:N, :N]), coordinates)
+    found = disturbances(smooth(cuts, at, np.linalg.inv(here.A)[:N, :N]), coordinates)
     B, after = np.eye(N)[:, coordinates], np.eye(N)
     extra = np.zeros((3, len(here.b)))
     crossed, toward = np.zeros((3, 3)), np.zeros(3)

@@ -130,15 +130,15 @@ def by_com(column: int, mass: float) -> float:
 @part
 def unpack(work: Pass, mass: float, normal: Floats, descent: Floats) -> bool:
     """Write A and b of the data by com instead of first moment; say whether all is finite."""
-    lanes, finite = work.descent.shape[0], True
+    lanes, check = work.descent.shape[0], 0.0
     for a in range(work.normal.shape[0] // lanes):
         scale = by_com(a, mass)
         descent[a] = scale * work.descent[a]
         for b in range(a + 1):
             value = scale * by_com(b, mass) * work.normal[a * lanes + b]
             normal[a, b], normal[b, a] = value, value
-            finite &= bool(np.isfinite(value))
-    return finite
+            check += value
+    return bool(np.isfinite(check))
 
 
 @part
@@ -215,9 +215,9 @@ def along_stretch(
         _, places = columns_within(parts, p)
         nodes = (parts.nodes[p], parts.nodes[p + 1])
         begin_part(places, errors_at, share)
-        express(known, posed.owners, posed.maps, nodes, posed.mass, errors_at, share)
-        add_part(places, total, share, normal, descent)
-        pass_on(places, total, share)
+        lacking = express(known, posed.owners, posed.maps, nodes, posed.mass, errors_at, share)
+        add_part(places, total, lacking, share, normal, descent)
+        pass_on(places, total, lacking, share)
     return cost, iq, iw, iv, finite
 
 
@@ -329,6 +329,21 @@ def local_for(posed: Posed, point: Floats) -> Local:
                  np.zeros((n_v, 3)))  # fmt: skip
 
 
+@kernel  # not a part: it is most of the code, and is called twice
+def cost_at(
+    posed: Posed, known: Floats, at: Local, share: Share, x: Floats, step: Floats, here: Floats,
+    behind: Floats,
+) -> float:  # fmt: skip
+    """Write the local models at a point, and return the cost, infinite where that is no number.
+
+    All but the first three are worked in.
+    """
+    stop_at_commands(posed, at.point, known)
+    cost = search_along(posed, known, at, share, step, here, behind)
+    coordinates_of(at.point, posed.mass, posed.slots, x)
+    return cost + prior_cost(posed, x) if cost < np.inf else cost
+
+
 @kernel
 def descend(
     posed: Posed, best: Local, most: int, normal: Floats, descent: Floats,
@@ -342,42 +357,29 @@ def descend(
     """
     n = posed.slots.shape[0]
     rows = 3 * (best.left_q.shape[0] + best.left_w.shape[0] + best.left_v.shape[0])
-    trial = local_for(posed, best.point)
-    copy_rows(best.pieces.jumps, trial.pieces.jumps)
     known = posed.known.copy() if posed.owners.shape[0] else posed.known
     work, step_work = share_for(posed.columns.kinds.shape[0], n), step_work_for(n)
     chain, step, x = chain_for(posed.cuts, n), np.empty(n), np.empty(n)
     here, behind = np.empty_like(best.point), np.empty_like(best.point)
-    cost, promised = np.inf, np.inf
-    evaluations, converged = 0, False
-    while evaluations < most:
-        evaluations += 1
-        stop_at_commands(posed, trial.point, known)
-        there = search_along(posed, known, trial, work, step, here, behind)
-        coordinates_of(trial.point, posed.mass, posed.slots, x)
-        if there < np.inf:
-            there += prior_cost(posed, x)
-        taken = True
-        if evaluations > 1:
-            taken, damping, growth = judge(2.0 * (cost - there), promised, damping, growth)
-        if taken:
-            keep(trial, best)
-            cost = there
-        if not np.isfinite(cost) or evaluations == most:
-            break
-        promised, allowed = (propose(posed, best, damping, chain, x, step_work, step, trial),
+    cost = cost_at(posed, known, best, work, x, step, here, behind)
+    evaluations, converged, is_elsewhere, kept, trial = 1, False, False, best, best
+    if most > 1 and np.isfinite(cost):
+        trial = local_for(posed, best.point)
+    while evaluations < most and np.isfinite(cost):
+        promised, allowed = (propose(posed, kept, damping, chain, x, step_work, step, trial),
                              tolerated(cost, rows))  # fmt: skip
         if promised < allowed:
             bold = min(damping, FREE)
-            promised = propose(posed, best, bold, chain, x, step_work, step, trial)
+            promised = propose(posed, kept, bold, chain, x, step_work, step, trial)
             converged = abs(promised) < NEAR * allowed
             break
+        there = cost_at(posed, known, trial, work, x, step, here, behind)
+        evaluations += 1
+        taken, damping, growth = judge(2.0 * (cost - there), promised, damping, growth)
+        if taken:
+            kept, trial, is_elsewhere, cost = trial, kept, not is_elsewhere, there
+    if is_elsewhere:
+        keep(kept, best)
     if np.isfinite(cost):
         report(posed, best, x, chain, normal, descent)
     return Ended(cost, converged, evaluations, damping, growth)
-
-
-def pieces_at(posed: Posed, at: Local) -> None:
-    """Write the local models of all stretches at a point and its jumps."""
-    n = len(posed.slots)
-    descend(posed, at, 1, np.empty((n, n)), np.empty(n), 0.0, 0.0)

@@ -12,11 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.output_error.kernels.gauss_newton import (
-    Posed,
-    local_for,
-    pieces_at,
-)
 from equipoise.estimation.output_error.kernels.segments import (
     STATE,
     Chain,
@@ -145,15 +140,12 @@ def forward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: S
                 out.covariance[k + 1, cuts.free[k, i], cuts.free[k, j]] += inverse[k, i, j]
 
 
-def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothed:
+def smooth(cuts: Cuts, pieces: Pieces, first: Floats) -> Smoothed:
     """Return what is known of every stretch at an optimum; ``first`` is the covariance there."""
-    at = local_for(posed, point)
-    at.pieces.jumps[:] = jumps
-    pieces_at(posed, at)
-    n, (k, a) = len(posed.slots), posed.cuts.free.shape
+    n, (k, a) = len(first), cuts.free.shape
     square, scores, small = np.zeros((2, k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((2, k, a, a))
-    out = Smoothed(square[0], scores, square[1], small[0], at.pieces.points, np.eye(n), small[1])
-    chain = chain_for(posed.cuts, n)
-    backward_pass(posed.cuts, at.pieces, chain, out)
-    forward_pass(posed.cuts, at.pieces, chain, first, out)
+    out = Smoothed(square[0], scores, square[1], small[0], pieces.points, np.eye(n), small[1])
+    chain = chain_for(cuts, n)
+    backward_pass(cuts, pieces, chain, out)
+    forward_pass(cuts, pieces, chain, first, out)
     return out

@@ -27,16 +27,16 @@ from equipoise.dynamics.rigid_body import KNOWN_D, A, B
 from equipoise.dynamics.sensitivities import ERROR, Columns
 from equipoise.dynamics.timeline import Timeline
 from equipoise.estimation.output_error.kernels.normal_equations import Pass, pass_for
-from equipoise.estimation.output_error.kernels.segments import STATE, add_scaled
+from equipoise.estimation.output_error.kernels.segments import STATE, add_scaled, add_six
 from equipoise.maths.kernels.compiled import kernel, part
+from equipoise.maths.kernels.copying import copy_rows
 from equipoise.model.arrays import Bools, Floats, Ints
 
 SHORT = 16  # steps, chosen: a shorter stand is part of the travel
 LITTLE = 0.01  # of the greatest displacement, chosen: by which a mass that stands may be elsewhere
 MOSTLY = 0.5  # of the steps, chosen
 EXACT = 1e-9  # of the greatest share: by which one that is the same may vary
-CORE = 15  # columns: of the first state, J and the first moment
-J_AT, MU_AT = 6, 12  # where those of J and the first moment begin
+CORE = 15  # columns: of the first state, J and the first moment, in this order
 
 
 class Parts(NamedTuple):
@@ -57,10 +57,12 @@ class Share(NamedTuple):
     square: Floats  # A of the part
     right: Floats  # its b
     phi: Floats  # (6, columns) its end by its unknowns
-    by_all: Floats  # (15, n) L: the first unknowns of the part by all
-    mixed: NDArray[np.bool_]  # (15,) which rows of L are not those of the unit matrix
+    before: Floats  # (6, n) X where the part begins: L of its first state
+    is_carried: NDArray[np.bool_]  # (1,) that X is not that of the unit matrix
+    lacking: Ints  # (n,) unknowns that act on J and mu, and the part has no columns of
+    response: Floats  # (n, 9) L of J and mu by each of them, by com instead of mu
     product: Floats  # (n, n) A_part L
-    onward: Floats  # (6, n) X
+    onward: Floats  # (6, n) X where it ends
     own_errors: NDArray[np.bool_]  # of which the part has columns
 
 
@@ -69,8 +71,9 @@ def share_for(columns: int, unknowns: int) -> Share:
     """Return the arrays for so many columns and unknowns."""
     n = unknowns
     return Share(pass_for(columns, n), np.zeros((n, n)), np.zeros(n), np.zeros((STATE, columns)),
-                 np.zeros((CORE, n)), np.zeros(CORE, dtype=np.bool_), np.zeros((n, n)),
-                 np.zeros((STATE, n)), np.zeros(n, dtype=np.bool_))  # fmt: skip
+                 np.zeros((STATE, n)), np.zeros(1, dtype=np.bool_), np.zeros(n, dtype=np.int64),
+                 np.zeros((n, CORE - STATE)), np.zeros((n, n)), np.zeros((STATE, n)),
+                 np.zeros(n, dtype=np.bool_))  # fmt: skip
 
 
 @kernel
@@ -188,7 +191,7 @@ def begin_stretch(share: Share) -> None:
     share.onward[:] = 0.0
     for j in range(STATE):
         share.onward[j, j] = 1.0
-        share.mixed[j] = False
+    share.is_carried[0] = False
 
 
 @part
@@ -202,13 +205,8 @@ def mean_of(known: Floats, nodes: tuple[int, int], column: int) -> float:
 
 @part
 def begin_part(places: Ints, error_at: int, share: Share) -> None:
-    """Write L of a part whose J and mu are those of the whole, and which errors it has."""
-    L = share.by_all
-    for j in range(CORE):
-        for a in range(L.shape[1]):
-            L[j, a] = share.onward[j, a] if j < STATE else 1.0 * (a == j)
-        if j >= STATE:
-            share.mixed[j] = False
+    """Write L of the first state of a part, and of which errors it has columns."""
+    copy_rows(share.onward, share.before)
     share.own_errors[:] = False
     for at in places:
         if at >= error_at:
@@ -219,24 +217,28 @@ def begin_part(places: Ints, error_at: int, share: Share) -> None:
 def express(
     known: Floats, owners: Ints, maps: Floats, nodes: tuple[int, int], mass: float, error_at: int,
     share: Share,
-) -> None:  # fmt: skip
-    """Add dJ and dmu by the errors that the part between two nodes has no columns of to L.
+) -> int:  # fmt: skip
+    """Write dJ and dmu by the errors of which the part between two nodes has no columns.
 
-    By com instead of mu, as the unknowns have it.
+    Return how many such errors there are.
     """
-    L = share.by_all
+    count = 0
     for c in range(owners.shape[0]):
         owner, error = owners[c, 0], owners[c, 1]
         r = known[nodes[0], KNOWN_D + maps.shape[0] + c]
         if share.own_errors[error] or r == 0.0:
             continue
-        d, at = mean_of(known, nodes, KNOWN_D + owner), error_at + error
-        for j in range(J_AT, CORE):
-            share.mixed[j] = True
+        d, k = mean_of(known, nodes, KNOWN_D + owner), 0
+        while k < count and share.lacking[k] != error_at + error:
+            k += 1
+        if k == count:  # the first mass that has this error
+            share.lacking[k], share.response[k] = error_at + error, 0.0
+            count += 1
         for j in range(6):
-            L[J_AT + j, at] += r * (maps[owner, A + j] + 2 * d * maps[owner, B + j])
+            share.response[k, j] += r * (maps[owner, A + j] + 2 * d * maps[owner, B + j])
         for j in range(3):
-            L[MU_AT + j, at] += r * maps[owner, j] / mass
+            share.response[k, 6 + j] += r * maps[owner, j] / mass
+    return count
 
 
 @part
@@ -248,41 +250,53 @@ def place_of(places: Ints, columns: int, a: int) -> int:
 
 @part
 def by_all_unknowns(
-    row: Floats, places: Ints, columns: int, count: int, share: Share, out: Floats
+    row: Floats, places: Ints, columns: int, count: int, lacking: int, share: Share, out: Floats
 ) -> None:
-    """Write row L, the row having ``count`` unknowns of a part."""
-    n = out.shape[0]
+    """Write row L, the row having ``count`` unknowns of a part that is ``lacking`` so many."""
+    n, m = out.shape[0], places.shape[0]
     for a in range(n):
         out[a] = 0.0
-    for c in range(count):
-        if c < CORE and share.mixed[c]:
-            add_scaled(row[c], share.by_all[c], out, n)
-        else:
-            out[place_of(places, columns, c)] += row[c]
+    if share.is_carried[0]:
+        add_six((row[0], row[1], row[2], row[3], row[4], row[5]), share.before, out, n)
+    for c in range(STATE if share.is_carried[0] else 0, m):
+        out[places[c]] += row[c]
+    for c in range(m, count):
+        out[columns + c - m] += row[c]
+    for k in range(lacking):
+        for j in range(CORE - STATE):
+            out[share.lacking[k]] += row[STATE + j] * share.response[k, j]
 
 
 @part
-def add_part(places: Ints, columns: int, share: Share, normal: Floats, descent: Floats) -> None:
+def add_part(
+    places: Ints, columns: int, lacking: int, share: Share, normal: Floats, descent: Floats
+) -> None:
     """Add L^T A_part L and L^T b_part of a part to A and b."""
-    n, m, L = descent.shape[0], places.shape[0], share.by_all
+    n, m, L, right, rows = (descent.shape[0], places.shape[0], share.before, share.right,
+                            share.product)  # fmt: skip
     count = m + n - columns
     for i in range(count):
-        row, size = share.product[i], share.right[i]
-        by_all_unknowns(share.square[i], places, columns, count, share, row)
-        if i < CORE and share.mixed[i]:
-            add_scaled(size, L[i], descent, n)
-            for a in range(n):
-                if L[i, a] != 0.0:
-                    add_scaled(L[i, a], row, normal[a], n)
-        else:
+        by_all_unknowns(share.square[i], places, columns, count, lacking, share, rows[i])
+        if i >= STATE or not share.is_carried[0]:
             at = place_of(places, columns, i)
-            descent[at] += size
-            add_scaled(1.0, row, normal[at], n)
+            descent[at] += right[i]
+            add_scaled(1.0, rows[i], normal[at], n)
+    for a in range(n if share.is_carried[0] else 0):
+        column = (L[0, a], L[1, a], L[2, a], L[3, a], L[4, a], L[5, a])
+        add_six(column, rows, normal[a], n)
+        for i in range(STATE):
+            descent[a] += L[i, a] * right[i]
+    for k in range(lacking):
+        at = share.lacking[k]
+        for j in range(CORE - STATE):
+            descent[at] += share.response[k, j] * right[STATE + j]
+            add_scaled(share.response[k, j], rows[STATE + j], normal[at], n)
 
 
 @part
-def pass_on(places: Ints, columns: int, share: Share) -> None:
+def pass_on(places: Ints, columns: int, lacking: int, share: Share) -> None:
     """Write X at the end of a part."""
     for j in range(STATE):
-        by_all_unknowns(share.phi[j], places, columns, places.shape[0], share, share.onward[j])
-        share.mixed[j] = True
+        by_all_unknowns(share.phi[j], places, columns, places.shape[0], lacking, share,
+                        share.onward[j])  # fmt: skip
+    share.is_carried[0] = True

@@ -23,7 +23,7 @@ import numpy as np
 
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.scaled_solve import factorise, solve
-from equipoise.model.arrays import Floats, Ints
+from equipoise.model.arrays import Floats, Ints, Six
 
 STATE = 6  # coordinates that a stretch changes: attitude and rate; all others are handed on
 
@@ -143,8 +143,17 @@ def carry(onward: Floats, rows: Floats, count: int) -> None:
         s = (row[0], row[1], row[2], row[3], row[4], row[5])
         for c in range(STATE):
             row[c] = 0.0
-        for i in range(STATE):
-            add_scaled(s[i], onward[i], row, n)
+        add_six(s, onward, row, n)
+
+
+@part
+def add_six(sizes: Six, sources: Floats, out: Floats, n: int) -> None:
+    """Write out + sum of sizes_i sources_i; at once, so that ``out`` is read and written once."""
+    a, b, c, d, e, f = (sources[0], sources[1], sources[2], sources[3], sources[4],
+                        sources[5])  # fmt: skip
+    for k in range(n):
+        out[k] += (sizes[0] * a[k] + sizes[1] * b[k] + sizes[2] * c[k]
+                   + sizes[3] * d[k] + sizes[4] * e[k] + sizes[5] * f[k])  # fmt: skip
 
 
 @part
@@ -166,10 +175,10 @@ def carry_back(onward: Floats, chain: Chain) -> None:
     s = (p[0], p[1], p[2], p[3], p[4], p[5])
     for i in range(STATE):
         p[i] = 0.0
-    for i in range(STATE):
-        add_scaled(s[i], onward[i], p, n)
-        for r in range(n):
-            add_scaled(onward[i, r], chain.rows[i], P[r], n)
+    add_six(s, onward, p, n)
+    for r in range(n):
+        add_six((onward[0, r], onward[1, r], onward[2, r], onward[3, r], onward[4, r],
+                 onward[5, r]), chain.rows, P[r], n)  # fmt: skip
 
 
 @part
