@@ -12,7 +12,7 @@ import sys
 from rich.console import Console
 from rich.table import Table
 
-from benchmarks import commands, doors, fits, others, steps
+from benchmarks import commands, doors, fits, limit, others, steps
 
 CUT = 2.0  # s between cuts, chosen: a short record then has a few, a long one thousands
 console = Console(width=110)
@@ -48,7 +48,9 @@ def show_steps() -> None:
 
 def show_others() -> None:
     """Print tracker, simulator, lengths and throughput."""
-    console.print(f"Tracker: {others.tracker_step():.1f} us a step (wanted: at most 15).")
+    one, walked = others.tracker_step()
+    console.print(f"Tracker: {one:.1f} us a row; each was passed {walked:.1f} times "
+                  "(wanted: at most 15 us).")  # fmt: skip
     for length in (25.0, 120.0):
         times = others.simulator(length)
         console.print(f"Simulator, sputnix, reads of {length:.0f} s: {times:,.0f} x real time "
@@ -69,6 +71,19 @@ def show_others() -> None:
         console.print(f"Batch of 200 fits from {start}: {alone:.0f} a second in one thread, "
                       f"{together:.0f} on {os.cpu_count()} cores "
                       f"({1e3 / together:.2f} ms a fit).")  # fmt: skip
+
+
+def show_limit() -> None:
+    """Print how near the kernels are to what a core can do."""
+    peak, shares = limit.table()
+    table = Table(title=f"The limit: a core does {1e-6 * peak:,.0f} million operations a s")
+    for title in ("what", "operations", "us", "million a s", "of the peak"):
+        table.add_column(title, justify="left" if title == "what" else "right")
+    for each in shares:
+        rate = f"{1e-6 * each.operations / each.seconds:,.0f}"
+        cost = (f"{each.operations:,.0f}", f"{1e6 * each.seconds:.3f}", rate)
+        table.add_row(each.what, *cost, f"{each.of_peak:.0%}")
+    console.print(table)
 
 
 def show_commands() -> None:
@@ -101,5 +116,6 @@ if __name__ == "__main__":
     show_fits("--quick" in sys.argv)
     show_steps()
     show_others()
+    show_limit()
     show_doors()
     show_commands()

@@ -7,6 +7,7 @@ import pytest
 
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.dynamics.forcing import groups_of
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
 from equipoise.dynamics.regressor import DRIFT, N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
@@ -209,3 +210,40 @@ def test_columns_come_in_the_requested_order(sensed):
     some = Columns(COLUMNS.kinds[chosen], COLUMNS.indices[chosen])
     found = travel(line, body(torque), some, w0=RATE + FAST)
     np.testing.assert_allclose(found.turn_by, motion.turn_by[:, :, chosen], rtol=1e-10, atol=1e-12)
+
+
+TURNS, INERTIAS, MOMENTS, DRAGS = np.r_[0:3], np.r_[6:12], np.r_[12:15], np.r_[15:27]
+ORDERS = {
+    "backwards": np.arange(len(PAIRS))[::-1],
+    "across two blocks": np.r_[DRAGS, INERTIAS, MOMENTS],
+    "a part of each": np.r_[TURNS, INERTIAS[:5], MOMENTS[1:]],
+    "alone": np.r_[INERTIAS, MOMENTS],
+    "moments first": np.r_[MOMENTS, TURNS, INERTIAS],
+}
+
+
+@pytest.mark.parametrize("chosen", ORDERS.values(), ids=ORDERS)
+def test_columns_that_stand_together_and_others_are_the_same(sensed, chosen):
+    """J and mu are written at once where all their columns stand together, else one by one."""
+    line, torque, motion = sensed
+    some = Columns(COLUMNS.kinds[chosen], COLUMNS.indices[chosen])
+    found = travel(line, body(torque), some, w0=RATE + FAST)
+    np.testing.assert_allclose(found.turn_by, motion.turn_by[:, :, chosen], rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(found.rate_by, motion.rate_by[:, :, chosen], rtol=1e-10, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "expected"),
+    [
+        (ORDERS["backwards"], (-1, -1, True)),
+        (ORDERS["across two blocks"], (-1, 18, True)),
+        (ORDERS["a part of each"], (-1, -1, True)),
+        (ORDERS["alone"], (0, 6, False)),
+        (ORDERS["moments first"], (6, 0, False)),
+        (np.r_[TURNS, INERTIAS, MOMENTS, DRAGS], (3, 9, True)),
+        (TURNS, (-1, -1, False)),
+    ],
+)
+def test_where_columns_stand_together(chosen, expected):
+    found = groups_of(Columns(COLUMNS.kinds[chosen], COLUMNS.indices[chosen]))
+    assert tuple(found) == expected

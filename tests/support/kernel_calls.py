@@ -44,7 +44,7 @@ def calls() -> dict[str, Callable[[], object]]:
         "pieces_for": lambda: pieces_for(what.cuts, n, len(point)),
         "pass_for": lambda: pass_for(3, n),
         "work_for": lambda: work_for(3),
-        "new_tools": new_tools,
+        "new_tools": lambda: new_tools(True),
         "step_work_for": lambda: step_work_for(n),
         "coordinates": lambda: coordinates(point, what.mass, what.slots),
         "to_inertia": lambda: to_inertia(six),

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.sliding_masses import MassMaps
+from equipoise.dynamics.forcing import forcing, groups_of
 from equipoise.dynamics.rigid_body import (
     NO_TORQUE,
     ROWS,
@@ -32,7 +33,6 @@ from equipoise.dynamics.sensitivities import (
     Columns,
     Inputs,
     Work,
-    forcing,
     linearise,
     place,
     room_for,
@@ -43,7 +43,7 @@ from equipoise.dynamics.timeline import Timeline
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.kernels.copying import copy_values
 from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.arrays import Floats, Quaternion, Triple, Vector3, Vector6
+from equipoise.model.arrays import Floats, Ints, Quaternion, Triple, Vector3, Vector6
 from equipoise.model.mass_properties import MassProperties
 
 
@@ -222,8 +222,11 @@ def rate_sensitivity(now: Now, y: Floats, fb: Floats, out: Floats) -> None:
 
 
 @kernel
-def _run(body: Body, inputs: Inputs, q0: Floats, w0: Floats, out: Motion) -> None:
-    n, t = inputs.columns.kinds.shape[0], inputs.t
+def _run(
+    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns, q0: Floats,
+    w0: Floats, out: Motion,
+) -> None:  # fmt: skip
+    inputs, n = Inputs(maps, t, known, owners, columns, groups_of(columns)), columns.kinds.shape[0]
     y, work, last = np.empty(ROWS + room_for(n)), work_for(n), t.shape[0] - 2
     for node in range(t.shape[0]):
         # at a corner of the inputs, as the step that leaves it sees them
@@ -262,5 +265,5 @@ def propagate(
     """Return the motion at every node, with its sensitivities to ``columns``."""
     n, c = len(line.t), len(columns.kinds)
     out = Motion(*[np.zeros((n, *s)) for s in ((4,), (3,), (3,), (3, c), (3, c))])
-    _run(body, Inputs(stacked(maps), line.t, line.known, line.owners, columns), q0, w0, out)
+    _run(body, stacked(maps), line.t, line.known, line.owners, columns, q0, w0, out)
     return out

@@ -7,7 +7,8 @@ A small change of parameter p turns the attitude by dth (body axes) and the mome
     dH'  = ([H x] + D) dw - w x dH + G dth + b_p
     D = d tau/dw,   G = d(mu x g_B + tau)/dth,   b_p = explicit d(torque)/dp
 
-f_p and b_p are columns of the regressor, so this is the momentum balance once more.
+f_p and b_p are columns of the regressor, so this is the momentum balance once more
+(``forcing``).
 
 They lie in blocks of LANES columns behind q and H, each block row by row (dth, then dH), so that
 one machine instruction serves several columns; columns that only fill the last block stay zero.
@@ -17,11 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.dynamics.regressor import INERTIA as INERTIA_COLUMN
-from equipoise.dynamics.regressor import MOMENT as MOMENT_COLUMN
-from equipoise.dynamics.regressor import QUADRATIC, SAG, SWIRL, WIDTH, regressor
-from equipoise.dynamics.regressor import TORQUE as TORQUE_COLUMN
-from equipoise.dynamics.rigid_body import HM, KNOWN_D, ROWS, A, B, Body, Now, between, cross, times
+from equipoise.dynamics.regressor import QUADRATIC, SAG, SWIRL, WIDTH
+from equipoise.dynamics.rigid_body import ROWS, Body, Now, cross, times
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats, Ints, Nine, Six, Triple
 
@@ -38,6 +36,14 @@ class Columns(NamedTuple):
     indices: Ints
 
 
+class Groups(NamedTuple):
+    """Where columns are that stand together: looked for once, as each step passes them often."""
+
+    inertia: int  # the first of the six of J in order and in one block; -1: nowhere
+    moment: int  # of the three of mu
+    others: bool  # columns beside these are forced, too
+
+
 class Inputs(NamedTuple):
     """What is known at the nodes of a timeline, and which sensitivities are wanted."""
 
@@ -46,6 +52,7 @@ class Inputs(NamedTuple):
     known: Floats  # as in ``timeline``
     owners: Ints
     columns: Columns
+    groups: Groups  # of the columns
 
 
 class Work(NamedTuple):
@@ -149,75 +156,6 @@ def linearise(body: Body, now: Now, y: Floats, w: Triple, g: Triple) -> tuple[Ni
     by_turn = add(by_turn, cross_matrix(g), -torque[SWIRL] / body.gravity)
     by_turn = add(by_turn, sag_by_turn(torque, g), body.mass / body.gravity)
     return by_rate, by_turn
-
-
-@part
-def error_column(
-    inputs: Inputs, i: int, share: float, owner: int, column: int, w: Triple, g: Triple
-) -> tuple[Triple, Triple]:
-    """Return f and b of an error of one mass, whose share of it is the known input ``column``."""
-    t, a, b, k = inputs.t, inputs.known[i], inputs.known[i + 1], KNOWN_D + owner
-    response, rate = (
-        between(a[column], b[column], share),
-        (b[column] - a[column]) / (t[i + 1] - t[i]),
-    )
-    d, m = between(a[k], b[k], share), inputs.maps[owner]
-    bend = (m[A] + 2 * d * m[B], m[A + 1] + 2 * d * m[B + 1], m[A + 2] + 2 * d * m[B + 2],
-            m[A + 3] + 2 * d * m[B + 3], m[A + 4] + 2 * d * m[B + 4],
-            m[A + 5] + 2 * d * m[B + 5])  # fmt: skip
-    v, u = times(bend, w), cross((m[0], m[1], m[2]), g)
-    f = (
-        response * v[0] + rate * m[HM],
-        response * v[1] + rate * m[HM + 1],
-        response * v[2] + rate * m[HM + 2],
-    )
-    return f, (response * u[0], response * u[1], response * u[2])
-
-
-@part
-def write_error(
-    inputs: Inputs, i: int, share: float, error: int, w: Triple, g: Triple, fb: Floats
-) -> None:
-    """Write f and b of an error, summed over the masses that have it, from row 0 of ``fb`` on."""
-    for j in range(6):
-        fb[j * LANES] = 0.0
-    owners = inputs.owners
-    for c in range(owners.shape[0]):
-        if owners[c, 1] == error:
-            response = KNOWN_D + inputs.maps.shape[0] + c
-            f, b = error_column(inputs, i, share, int(owners[c, 0]), response, w, g)
-            for j in range(3):
-                fb[j * LANES] += f[j]
-                fb[(3 + j) * LANES] += b[j]
-
-
-@part
-def regressor_block(kind: int) -> int:
-    """Return the first column of a kind in the regressor."""
-    if kind == INERTIA:
-        return INERTIA_COLUMN
-    return MOMENT_COLUMN if kind == MOMENT else TORQUE_COLUMN
-
-
-@part
-def forcing(
-    body: Body, now: Now, inputs: Inputs, i: int, share: float, w: Triple, g: Triple, work: Work
-) -> None:
-    """Write f_p (rows 0-2) and b_p (rows 3-5) of every column; the other entries stay zero."""
-    kinds, fb, torques = inputs.columns.kinds, work.fb, False
-    n = kinds.shape[0]
-    for c in range(n):
-        torques |= kinds[c] == TORQUE
-    regressor(w, g, now.t, now.warmth, body.mass, body.gravity, torques, work.regress)
-    for c in range(n):
-        kind, k, at = kinds[c], inputs.columns.indices[c], place(c)
-        if kind == ERROR:
-            write_error(inputs, i, share, int(k), w, g, fb[at:])
-        elif kind >= INERTIA:
-            first = at if kind == INERTIA else at + 3 * LANES
-            source = k + regressor_block(kind)
-            for j in range(3):
-                fb[first + j * LANES] = work.regress[j, source]
 
 
 @part

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.dynamics.forcing import groups_of
 from equipoise.dynamics.propagation import NO_COLUMNS, evaluate, step
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at
 from equipoise.dynamics.sensitivities import Columns, Inputs, work_for
@@ -87,7 +88,8 @@ def _run(
     touch: Floats,
 ) -> None:
     t3, known3, before = np.zeros(3), np.zeros((3, known.shape[1])), y.copy()
-    inputs, work = Inputs(maps, t3, known3, owners, columns), work_for(0)
+    inputs = Inputs(maps, t3, known3, owners, columns, groups_of(columns))
+    work = work_for(0)
     course = Course(body, stop, t, known, inputs, work)
     copy_values(y, path[0])
     for node in range(t.shape[0] - 1):

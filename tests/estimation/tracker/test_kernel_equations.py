@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 
+from equipoise.dynamics.sensitivities import LANES
 from equipoise.estimation.tracker import contact_test as contacts
 from equipoise.estimation.tracker import event_signatures as onsets
 from equipoise.estimation.tracker import mixture
 from equipoise.estimation.tracker import predict_correct as steps
+from equipoise.estimation.tracker import stored_covariance as stored
 from equipoise.estimation.tracker.event_signatures import MANY, ONSETS, new_watch
-from equipoise.estimation.tracker.kernel_records import Place, new_tools
+from equipoise.estimation.tracker.kernel_records import new_tools
 from equipoise.estimation.tracker.measurement_update import take_anew
 from equipoise.estimation.tracker.measurements import Rows
 from equipoise.estimation.tracker.noise_level import learn_noise
@@ -37,6 +39,29 @@ def transition(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return phi, full
 
 
+def rows_of_16(phi: np.ndarray) -> np.ndarray:
+    """Phi as the kernels keep it."""
+    return np.pad(phi, ((0, 0), (0, LANES - 15))).ravel()
+
+
+def table(flat: np.ndarray, rows: int) -> np.ndarray:
+    """What the kernels keep row by row, the filling left out."""
+    return flat.reshape(rows, -1)[:, :18]
+
+
+def holding(P: np.ndarray, biased: bool = True):
+    """Tools that hold a covariance; below its diagonal nothing that counts."""
+    work = new_tools(biased).work
+    stored.take(np.triu(P) + np.tril(np.full((18, 18), 7.0), -1), work.P)
+    return work
+
+
+def held(work) -> np.ndarray:
+    P = np.zeros((18, 18))
+    stored.give(work.P, P)
+    return P
+
+
 def packed(six: np.ndarray) -> np.ndarray:
     xx, yy, zz, xy, xz, yz = six
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
@@ -48,80 +73,107 @@ def test_covariance_is_predicted_as_phi_p_phi_transposed_and_noise():
     P, noise = covariance(2), np.zeros(18)
     noise[3:6] = 2.0
     expected = full @ P @ full.T + np.diag([0.0] * 3 + [0.025] * 3 + [0.0] * 12)
-    steps.predict_covariance((4.0, 4.0, 4.0, 0.0, 0.0, 0.0), phi, noise, 0.1, P, np.zeros((6, 18)))
-    np.testing.assert_allclose(P, expected, rtol=0, atol=1e-12)
-    np.testing.assert_array_equal(P, P.T)
+    work, inertia = holding(P), (4.0, 4.0, 4.0, 0.0, 0.0, 0.0)
+    steps.predict_covariance(inertia, rows_of_16(phi), noise, 0.1, work)
+    np.testing.assert_allclose(held(work), expected, rtol=0, atol=1e-12)
 
 
 @sensors
 def test_a_row_corrects_as_kalman_says(first, second):
     """K = P H^T S^-1, x = K z, P+ = (E - K H) P, symmetric to the last digit."""
-    P, H, z, work = covariance(3), pick(first, second), (0.3, -0.2, 0.5), new_tools().work
+    P, H, z = covariance(3), pick(first, second), (0.3, -0.2, 0.5)
+    work = holding(P)
     S = H @ P @ H.T + 0.7 * np.eye(3)
     K = P @ H.T @ np.linalg.inv(S)
     expected = P - K @ H @ P
-    steps.expect(P, first, second, 0.7, work)
+    steps.expect(first, second, 0.7, work)
     surprise = steps.weigh(z, work)
-    steps.shrink(P, first, second, 0.7, work)
+    steps.shrink(first, second, 0.7, work)
     assert surprise == pytest.approx(np.array(z) @ np.linalg.solve(S, z))
-    np.testing.assert_allclose(work.x, K @ z, atol=1e-12)
-    np.testing.assert_allclose(P, expected, rtol=0, atol=1e-12)
-    np.testing.assert_array_equal(P, P.T)
+    np.testing.assert_allclose(work.x[:18], K @ z, atol=1e-12)
+    np.testing.assert_allclose(held(work), expected, rtol=0, atol=1e-12)
+
+
+def test_where_the_bias_is_alone_its_block_is_passed_over():
+    """A camera's row and a prediction: as with all 18, but the variances of the bias stay."""
+    phi, full = transition(1)
+    P, H = covariance(3), pick(0, -1)
+    P[:15, 15:] = P[15:, :15] = 0.0
+    work = holding(P, biased=False)
+    still, stiff = np.zeros(18), (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
+    steps.predict_covariance(stiff, rows_of_16(phi), still, 0.1, work)
+    P = full @ P @ full.T
+    np.testing.assert_allclose(held(work), P, rtol=0, atol=1e-12)
+    steps.expect(0, -1, 0.7, work)
+    steps.weigh((0.3, -0.2, 0.5), work)
+    steps.shrink(0, -1, 0.7, work)
+    S = H @ P @ H.T + 0.7 * np.eye(3)
+    expected = P - P @ H.T @ np.linalg.solve(S, H @ P)
+    np.testing.assert_allclose(held(work), expected, rtol=0, atol=1e-12)
+
+
+def test_a_covariance_whose_bias_has_to_do_with_the_rest_says_so():
+    P = np.diag(np.arange(1.0, 19.0))
+    assert not stored.coupled(P)
+    P[4, 16] = P[16, 4] = 1e-30
+    assert stored.coupled(P)
 
 
 def test_a_gain_that_is_a_little_wrong_costs_the_second_order():
     """What Joseph's form is for: with K + D, P+ = (E - K H) P + D S D^T, D being 1e-3 of K."""
-    P, H, work = covariance(4), pick(0, -1), new_tools().work
+    P, H = covariance(4), pick(0, -1)
+    work = holding(P)
     S = H @ P @ H.T + 0.7 * np.eye(3)
     best = P - P @ H.T @ np.linalg.solve(S, H @ P)
-    steps.expect(P, 0, -1, 0.7, work)
+    steps.expect(0, -1, 0.7, work)
     steps.weigh((0.0, 0.0, 0.0), work)
-    off = 1e-3 * work.K.copy()
-    work.K[:] += off
-    steps.shrink(P, 0, -1, 0.7, work)
-    np.testing.assert_allclose(P - best, off.T @ S @ off, rtol=0, atol=1e-13 * np.abs(best).max())
+    off = 1e-3 * table(work.K, 3)
+    work.K[:] *= 1.001
+    steps.shrink(0, -1, 0.7, work)
+    bent = held(work) - best
+    np.testing.assert_allclose(bent, off.T @ S @ off, rtol=0, atol=1e-13 * np.abs(best).max())
 
 
 @sensors
 def test_signature_is_what_two_filters_differ_by(first, second):
     """One of the two has a rate that jumped by v, the other an r that stepped: linear, so exact."""
-    rng, watch, tools = np.random.default_rng(5), new_watch(), new_tools()
+    rng, watch, tools = np.random.default_rng(5), new_watch(), new_tools(True)
     P, H, v = covariance(6), pick(first, second), np.array([0.3, -0.2, 0.1])
     onsets.take_up(watch, 7.0)
     off = {0: np.zeros(18), ONSETS: np.zeros(18)}  # truth minus filter, by the hypothesis
     off[0][3:6], off[ONSETS][6:9] = v, v
     C, d = ({h: np.zeros(s) for h in off} for s in ((3, 3), 3))
+    stored.take(P, tools.work.P)
     for k in range(4):
         phi, full = transition(10 + k)
         z = rng.normal(size=3)
-        steps.expect(P, first, second, 0.7, tools.work)
+        steps.expect(first, second, 0.7, tools.work)
         steps.weigh(tuple(z), tools.work)
-        onsets.follow(watch, phi, tools.room)
+        onsets.follow(watch, rows_of_16(phi), tools.room)
         onsets.response(watch, first, second, tools.room)
         onsets.gather(watch, tuple(z), tools.work, tools.room)
         onsets.respond(watch, tools.work, tools.room)
-        S, K = tools.work.S.copy(), tools.work.K.T.copy()
+        S, K = tools.work.S.copy(), table(tools.work.K, 3).T
         for h in off:
             off[h] = full @ off[h]
-            G = tools.room.G[:, [h, MANY + h, 2 * MANY + h]]
+            G = tools.room.G.reshape(3, -1)[:, [h, MANY + h, 2 * MANY + h]]
             np.testing.assert_allclose(G @ v, H @ off[h], atol=1e-12)
             off[h] -= K @ H @ off[h]
             C[h] += G.T @ np.linalg.solve(S, G)
             d[h] += G.T @ np.linalg.solve(S, z)
     for h in off:
-        X = watch.X[:, [h, MANY + h, 2 * MANY + h]]
-        np.testing.assert_allclose(X @ v, off[h], atol=1e-12)
-        np.testing.assert_allclose(packed(watch.C[:, h]), C[h], atol=1e-12)
-        np.testing.assert_allclose(watch.d[:, h], d[h], atol=1e-12)
+        np.testing.assert_allclose(columns(watch, h) @ v, off[h], atol=1e-12)
+        np.testing.assert_allclose(packed(of(watch.C, h)), C[h], atol=1e-12)
+        np.testing.assert_allclose(of(watch.d, h), d[h], atol=1e-12)
     assert watch.since[0] == 7.0
 
 
 def some_watch():
     """Onsets 30, 12 and 5 rows old, all their sums and signatures at random."""
-    rng, watch, room = np.random.default_rng(8), new_watch(), new_tools().room
+    rng, watch, room = np.random.default_rng(8), new_watch(), new_tools(True).room
     for h in range(MANY):
         C = covariance(20 + h, 3)
-        watch.C[:, h] = 1e3 * np.array([C[0, 0], C[1, 1], C[2, 2], C[0, 1], C[0, 2], C[1, 2]])
+        of(watch.C, h)[:] = 1e3 * C[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     watch.d[:] = 30.0 * rng.normal(size=watch.d.shape)
     watch.X[:] = rng.normal(size=watch.X.shape)
     watch.counts[onsets.COUNT] = 3
@@ -131,16 +183,21 @@ def some_watch():
 
 
 def columns(watch, h: int) -> np.ndarray:
-    return watch.X[:, [h, MANY + h, 2 * MANY + h]]
+    return watch.X.reshape(18, -1)[:, [h, MANY + h, 2 * MANY + h]]
+
+
+def of(flat: np.ndarray, h: int) -> np.ndarray:
+    """What a hypothesis has in rows of 24."""
+    return flat.reshape(-1, MANY)[:, h]
 
 
 def test_a_hypothesis_explains_what_least_squares_says():
     """V = (C + L)^-1, v = V d, l = d^T V d; L is 1 / 0.1^2 for jumps, 1 / 1e-4^2 for steps."""
     watch, room = some_watch()
     for h, prior in ((1, 1e2), (ONSETS + 2, 1e8)):
-        V, d = np.linalg.inv(packed(watch.C[:, h]) + prior * np.eye(3)), watch.d[:, h]
-        np.testing.assert_allclose(packed(room.V[:, h]), V, rtol=1e-6)
-        np.testing.assert_allclose(room.v[:, h], V @ d, rtol=1e-6)
+        V, d = np.linalg.inv(packed(of(watch.C, h)) + prior * np.eye(3)), of(watch.d, h)
+        np.testing.assert_allclose(packed(of(room.V, h)), V, rtol=1e-6)
+        np.testing.assert_allclose(of(room.v, h), V @ d, rtol=1e-6)
         assert room.gain[h] == pytest.approx(d @ V @ d)
 
 
@@ -161,16 +218,16 @@ def test_a_contact_leaves_the_mixture_of_its_hypotheses():
     weights = {0: 0.1, 1: 0.4, 2: 0.2, ONSETS: 0.1, ONSETS + 1: 0.15, ONSETS + 2: 0.05}
     for h, p in weights.items():
         room.p[h] = p
-    effects = {h: columns(watch, h) @ room.v[:, h] for h in weights}
+    effects = {h: columns(watch, h) @ of(room.v, h) for h in weights}
     mean = sum(p * effects[h] for h, p in weights.items())
     P, x = covariance(9), np.zeros(18)
     expected = P + 0.01 * np.outer(mean, mean)
     for h, p in weights.items():
         X = columns(watch, h)
-        expected += p * (X @ packed(room.V[:, h]) @ X.T)
+        expected += p * (X @ packed(of(room.V, h)) @ X.T)
         expected += p * np.outer(effects[h] - mean, effects[h] - mean)
         if h not in (0, ONSETS):  # the oldest has none older
-            separation = columns(watch, h - 1) @ room.v[:, h] - effects[h]
+            separation = columns(watch, h - 1) @ of(room.v, h) - effects[h]
             expected += p / 12 * np.outer(separation, separation)
     mixture.mend(watch, P, x, room)
     np.testing.assert_allclose(x, mean, rtol=1e-9)
@@ -182,7 +239,7 @@ def test_an_event_reports_mean_and_spread_of_its_hypotheses():
     watch, room = some_watch()
     room.p[:], room.v[:], room.V[:] = 0.0, 0.0, 0.04
     room.p[1], room.p[2] = 0.5, 0.5
-    room.v[:, 1], room.v[:, 2] = 1.0, 3.0
+    of(room.v, 1)[:], of(room.v, 2)[:] = 1.0, 3.0
     out = np.ones(mixture.EVENT)
     mixture.report(watch, contacts.JUMP, 1, room, out)
     np.testing.assert_allclose(out[3:6], 2.0)
@@ -197,17 +254,16 @@ def test_an_attitude_taken_anew_brings_its_rate():
         np.array([0.0, 0.2, 0.4]), np.zeros((3, 6)), np.zeros(0, np.int64), q, np.array([1, 2]),
         np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3, 3)),
     )  # fmt: skip
-    P = covariance(11)
-    place, body = Place(np.arange(19.0), P.copy()), np.s_[6:, 6:]
-    take_anew(rows, 1, 1e-3, place)
-    np.testing.assert_allclose(place.posterior[:4], q[1])
-    np.testing.assert_allclose(place.posterior[4:7], [0.0, 0.1, 0.0], atol=1e-12)
-    np.testing.assert_array_equal(place.posterior[7:], np.arange(7.0, 19.0))
-    np.testing.assert_array_equal(place.covariance[body], P[body])
+    P, body, end = covariance(11), np.s_[6:, 6:], np.arange(19.0)
+    work = holding(P)
+    take_anew(rows, 1, 1e-3, end, work.P)
+    np.testing.assert_allclose(end[:4], q[1])
+    np.testing.assert_allclose(end[4:7], [0.0, 0.1, 0.0], atol=1e-12)
+    np.testing.assert_array_equal(end[7:], np.arange(7.0, 19.0))
     left = np.zeros((18, 18))
     left[body] = P[body]
     left[np.diag_indices(6)] = [1e-6] * 3 + [4e-4] * 3
-    np.testing.assert_allclose(place.covariance, left, rtol=1e-9, atol=1e-15)
+    np.testing.assert_allclose(held(work), left, rtol=1e-9, atol=1e-15)
 
 
 def test_noise_is_learnt_from_rows_that_are_mostly_noise():

@@ -13,6 +13,7 @@ contact: the estimate becomes the mixture of all (``mixture``), each weighing
 
 import numpy as np
 
+from equipoise.dynamics.rigid_body import invert, times
 from equipoise.estimation.tracker.event_signatures import (
     COUNT,
     MANY,
@@ -36,20 +37,18 @@ JUMP, STEP, EITHER, LOST = 0, 1, 2, 3  # kinds of event
 @part
 def explain(watch: Watch, room: Room) -> None:
     """Write V, v and l of every hypothesis."""
-    C, d, V, v = watch.C, watch.d, room.V, room.v
+    C, d, V, v, m = watch.C, watch.d, room.V, room.v, MANY
     for h in range(MANY):
         prior = JUMP_SD**-2 if h < ONSETS else STEP_SD**-2
-        xx, yy, zz = C[0, h] + prior, C[1, h] + prior, C[2, h] + prior
-        xy, xz, yz = C[3, h], C[4, h], C[5, h]
-        a, b, c = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
-        k = 1.0 / (xx * a + xy * b + xz * c)
-        V[0, h], V[3, h], V[4, h] = k * a, k * b, k * c
-        V[1, h], V[2, h] = k * (xx * zz - xz * xz), k * (xx * yy - xy * xy)
-        V[5, h] = k * (xy * xz - xx * yz)
-        v[0, h] = V[0, h] * d[0, h] + V[3, h] * d[1, h] + V[4, h] * d[2, h]
-        v[1, h] = V[3, h] * d[0, h] + V[1, h] * d[1, h] + V[5, h] * d[2, h]
-        v[2, h] = V[4, h] * d[0, h] + V[5, h] * d[1, h] + V[2, h] * d[2, h]
-        room.gain[h] = v[0, h] * d[0, h] + v[1, h] * d[1, h] + v[2, h] * d[2, h]
+        xx, yy, zz = C[h] + prior, C[m + h] + prior, C[2 * m + h] + prior
+        xy, xz, yz = C[3 * m + h], C[4 * m + h], C[5 * m + h]
+        x, y, z = d[h], d[m + h], d[2 * m + h]
+        V_xx, V_yy, V_zz, V_xy, V_xz, V_yz = invert((xx, yy, zz, xy, xz, yz))
+        V[h], V[m + h], V[2 * m + h] = V_xx, V_yy, V_zz
+        V[3 * m + h], V[4 * m + h], V[5 * m + h] = V_xy, V_xz, V_yz
+        a, b, c = times((V_xx, V_yy, V_zz, V_xy, V_xz, V_yz), (x, y, z))
+        v[h], v[m + h], v[2 * m + h] = a, b, c
+        room.gain[h] = a * x + b * y + c * z
 
 
 @part

@@ -17,7 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.tracker.predict_correct import SIZE, Work, ahead
+from equipoise.estimation.tracker.predict_correct import Work, ahead
+from equipoise.estimation.tracker.stored_covariance import ROW, SIZE
 from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Ints, Triple
 
@@ -29,7 +30,7 @@ COUNT, GATED, WAITED, SUSPECT = 0, 1, 2, 3  # in Watch.counts
 
 
 class Watch(NamedTuple):
-    """What the test remembers."""
+    """What the test remembers; what has two dimensions lies row by row in one."""
 
     X: Floats  # (18, 72)
     C: Floats  # (6, 24) xx yy zz xy xz yz
@@ -41,7 +42,7 @@ class Watch(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Arrays that the test works in."""
+    """Arrays that the test works in, two dimensions in one as in ``Watch``."""
 
     after: Floats  # (6, 72)
     G: Floats  # (3, 72)
@@ -57,7 +58,7 @@ class Room(NamedTuple):
 def new_watch() -> Watch:
     """Return a test that has no rows yet."""
     return Watch(
-        np.zeros((SIZE, COLUMNS)), np.zeros((6, MANY)), np.zeros((3, MANY)),
+        np.zeros(SIZE * COLUMNS), np.zeros(6 * MANY), np.zeros(3 * MANY),
         np.zeros(ONSETS, np.int64), np.zeros(ONSETS), np.zeros(ONSETS, np.int64),
         np.zeros(4, np.int64),
     )  # fmt: skip
@@ -76,42 +77,46 @@ def follow(watch: Watch, phi: Floats, room: Room) -> None:
     X, after = watch.X, room.after
     for r in range(6):
         for c in range(COLUMNS):
-            after[r, c] = ahead(phi, r, X, c)
-    for r in range(6):
-        for c in range(COLUMNS):
-            X[r, c] = after[r, c]
+            after[r * COLUMNS + c] = ahead(phi, r, X, COLUMNS, c)
+    for c in range(6 * COLUMNS):
+        X[c] = after[c]
 
 
 @part
 def response(watch: Watch, first: int, second: int, room: Room) -> None:
     """Write G = H X."""
     X, G = watch.X, room.G
-    for r in range(3):
-        for c in range(COLUMNS):
-            G[r, c] = X[first + r, c]
-        if second >= 0:
-            for c in range(COLUMNS):
-                G[r, c] += X[second + r, c]
+    for c in range(3 * COLUMNS):
+        G[c] = X[first * COLUMNS + c]
+    if second >= 0:
+        for c in range(3 * COLUMNS):
+            G[c] += X[second * COLUMNS + c]
+
+
+@part
+def product(A: Floats, a: int, B: Floats, b: int) -> float:
+    """Return the product of two columns of three rows."""
+    return A[a] * B[b] + A[COLUMNS + a] * B[COLUMNS + b] + A[2 * COLUMNS + a] * B[2 * COLUMNS + b]
 
 
 @part
 def gather(watch: Watch, z: Triple, work: Work, room: Room) -> None:
     """Add a row to C and d."""
-    G, F, inverse, C, d = room.G, room.weighed, work.inverse, watch.C, watch.d
+    G, F, S, C, d = room.G, room.weighed, work.inverse, watch.C, watch.d
     for r in range(3):
         for c in range(COLUMNS):
-            F[r, c] = inverse[r, 0] * G[0, c] + inverse[r, 1] * G[1, c] + inverse[r, 2] * G[2, c]
+            F[r * COLUMNS + c] = (S[r, 0] * G[c] + S[r, 1] * G[COLUMNS + c]
+                                  + S[r, 2] * G[2 * COLUMNS + c])  # fmt: skip
     for h in range(MANY):
         i, j, k = h, MANY + h, 2 * MANY + h
-        C[0, h] += G[0, i] * F[0, i] + G[1, i] * F[1, i] + G[2, i] * F[2, i]
-        C[1, h] += G[0, j] * F[0, j] + G[1, j] * F[1, j] + G[2, j] * F[2, j]
-        C[2, h] += G[0, k] * F[0, k] + G[1, k] * F[1, k] + G[2, k] * F[2, k]
-        C[3, h] += G[0, i] * F[0, j] + G[1, i] * F[1, j] + G[2, i] * F[2, j]
-        C[4, h] += G[0, i] * F[0, k] + G[1, i] * F[1, k] + G[2, i] * F[2, k]
-        C[5, h] += G[0, j] * F[0, k] + G[1, j] * F[1, k] + G[2, j] * F[2, k]
-        d[0, h] += F[0, i] * z[0] + F[1, i] * z[1] + F[2, i] * z[2]
-        d[1, h] += F[0, j] * z[0] + F[1, j] * z[1] + F[2, j] * z[2]
-        d[2, h] += F[0, k] * z[0] + F[1, k] * z[1] + F[2, k] * z[2]
+        C[h] += product(G, i, F, i)
+        C[MANY + h] += product(G, j, F, j)
+        C[2 * MANY + h] += product(G, k, F, k)
+        C[3 * MANY + h] += product(G, i, F, j)
+        C[4 * MANY + h] += product(G, i, F, k)
+        C[5 * MANY + h] += product(G, j, F, k)
+    for h in range(COLUMNS):
+        d[h] += F[h] * z[0] + F[COLUMNS + h] * z[1] + F[2 * COLUMNS + h] * z[2]
 
 
 @part
@@ -119,8 +124,9 @@ def respond(watch: Watch, work: Work, room: Room) -> None:
     """Write X <- X - K H X."""
     X, G, K = watch.X, room.G, work.K
     for i in range(SIZE):
+        a, b, e = K[i], K[ROW + i], K[2 * ROW + i]
         for c in range(COLUMNS):
-            X[i, c] -= K[0, i] * G[0, c] + K[1, i] * G[1, c] + K[2, i] * G[2, c]
+            X[i * COLUMNS + c] -= a * G[c] + b * G[COLUMNS + c] + e * G[2 * COLUMNS + c]
 
 
 @part
@@ -154,8 +160,8 @@ def take_up(watch: Watch, t: float) -> None:
     for kind in range(2):
         h = kind * ONSETS + onset
         for a in range(6):
-            watch.C[a, h] = 0.0
+            watch.C[a * MANY + h] = 0.0
         for a in range(3):
-            watch.d[a, h] = 0.0
+            watch.d[a * MANY + h] = 0.0
             for i in range(SIZE):
-                watch.X[i, a * MANY + h] = 1.0 if i == 3 + 3 * kind + a else 0.0
+                watch.X[i * COLUMNS + a * MANY + h] = 1.0 if i == 3 + 3 * kind + a else 0.0

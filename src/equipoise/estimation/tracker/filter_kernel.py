@@ -6,6 +6,7 @@ contact was corrected or the attitude taken anew: the caller then decides from w
 
 import numpy as np
 
+from equipoise.dynamics.forcing import groups_of
 from equipoise.dynamics.propagation import step
 from equipoise.dynamics.rigid_body import Body, Now, body_at, rate_of
 from equipoise.dynamics.sensitivities import Inputs
@@ -42,37 +43,35 @@ from equipoise.estimation.tracker.predict_correct import (
     transition,
     unit_columns,
 )
+from equipoise.estimation.tracker.stored_covariance import coupled, give, take
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats
 
 
 @part
 def predict(
-    model: Model, rows: Rows, body: Body, i: int, point: Floats, place: Place, tools: Tools
+    model: Model, inputs: Inputs, body: Body, i: int, point: Floats, end: Floats, tools: Tools
 ) -> Now:
     """Take estimate and covariance over step i; return the platform at its end."""
-    moving, end = tools.moving, place.posterior
-    y, regress, phi, t = moving.y, moving.step.regress, moving.phi, rows.t
-    inputs = Inputs(model.maps, t, rows.known, rows.owners, model.columns)
-    now = body_at(body, model.maps, t, rows.known, i, 0.0)
+    moving, work, t = tools.moving, tools.work, inputs.t
+    y, phi = moving.y, moving.phi
+    now = body_at(body, inputs.maps, t, inputs.known, i, 0.0)
     begin(now, end, y)
-    unit_columns(now, rate_of(now, y), regress, y)
+    unit_columns(now, rate_of(now, y), y)
     step(body, inputs, i, y, moving.step)
-    now = body_at(body, model.maps, t, rows.known, i, 1.0)
-    transition(now, body.mass, y, regress, phi)
-    predict_covariance(
-        body.inertia, phi, model.walks, t[i + 1] - t[i], place.covariance, tools.work.A
-    )
+    now = body_at(body, inputs.maps, t, inputs.known, i, 1.0)
+    transition(now, body.mass, y, moving.step.fb, phi)
+    predict_covariance(body.inertia, phi, model.walks, t[i + 1] - t[i], work)
     lean(now, phi, point, y, end)
     begin(now, end, y)
     return now
 
 
 @part
-def noted(t: float, surprise: float, place: Place, written: Written) -> None:
+def noted(t: float, surprise: float, place: Place, P: Floats, written: Written) -> None:
     """Write a row down."""
     done = written.done
-    note(t, place.posterior, place.covariance, surprise, written.out[done[NOTED]])
+    note(t, place.posterior, P, surprise, written.out[done[NOTED]])
     done[NOTED] += 1
 
 
@@ -88,13 +87,13 @@ def see(
         begin(now, place.posterior, y)
         iq += 1
         if not walk.again:
-            noted(t, surprise, place, written)
+            noted(t, surprise, place, tools.work.P, written)
     if iw < rows.w_node.shape[0] and rows.w_node[iw] == node:
         surprise = by_rate(model, rows, iw, now, known, walk, carried, tools)
         begin(now, place.posterior, y)
         iw += 1
         if not walk.again:
-            noted(t, surprise, place, written)
+            noted(t, surprise, place, tools.work.P, written)
     return iq, iw
 
 
@@ -105,7 +104,9 @@ def touched(model: Model, now: Now, carried: Carried, written: Written, tools: T
     kind, best = judged(carried.watch, model.alarm, room)
     if kind < 0:
         return False
+    give(work.P, place.covariance)
     mend(carried.watch, place.covariance, work.x, room)
+    take(place.covariance, work.P)
     y = tools.moving.y
     apply(work.x, rate_of(now, y), y, place.posterior)
     if done[EVENTS] < written.events.shape[0]:
@@ -143,21 +144,30 @@ def mended(
     return False
 
 
-@kernel
-def run_filter(
-    model: Model, rows: Rows, walk: Walk, point: Floats, carried: Carried, written: Written
-) -> int:
-    """Filter rows; return the node reached. ``point`` and what is carried come and go."""
+@part
+def fold(point: Floats, place: Place, P: Floats) -> None:
+    """Let the point follow the estimate."""
+    give(P, place.covariance)
+    transport(place.covariance, point, place.posterior)
+    take(place.covariance, P)
+
+
+@part
+def walk_on(
+    model: Model, rows: Rows, walk: Walk, point: Floats, carried: Carried, written: Written,
+    tools: Tools,
+) -> int:  # fmt: skip
+    """Filter rows; return the node reached. The covariance is the tools' own."""
     place, levels, watch, done = carried.place, carried.levels, carried.watch, written.done
-    tools = new_tools()
-    body = placed(model.body, point)
+    body, P = placed(model.body, point), tools.work.P
+    groups = groups_of(model.columns)
+    inputs = Inputs(model.maps, rows.t, rows.known, rows.owners, model.columns, groups)
     iq = int(np.searchsorted(rows.q_node, walk.first + 1))
     iw = int(np.searchsorted(rows.w_node, walk.first + 1))
     stop = int(np.searchsorted(rows.stop_node, walk.first + 1))
-    done[REASON] = END
     for i in range(walk.first, walk.last):
-        now = predict(model, rows, body, i, point, place, tools)
-        stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, place.covariance)
+        now = predict(model, inputs, body, i, point, place.posterior, tools)
+        stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
         if walk.testing:
             onsets.follow(watch, tools.moving.phi, tools.room)
         known, before = settled(levels), iq + iw
@@ -175,9 +185,23 @@ def run_filter(
             onsets.forget(watch)
             return i + 1
         if gone and walk.folding:
-            transport(place.covariance, point, place.posterior)
+            fold(point, place, P)
             body = placed(model.body, point)
         elif gone and not walk.again and i + 1 >= walk.stop_at:
             done[REASON] = MOVED
             return i + 1
     return walk.last
+
+
+@kernel
+def run_filter(
+    model: Model, rows: Rows, walk: Walk, point: Floats, carried: Carried, written: Written
+) -> int:
+    """Filter rows; return the node reached. ``point`` and what is carried come and go."""
+    covariance = carried.place.covariance
+    tools = new_tools(rows.w_node.shape[0] > 0 or coupled(covariance))
+    written.done[REASON] = END
+    take(covariance, tools.work.P)
+    reached = walk_on(model, rows, walk, point, carried, written, tools)
+    give(tools.work.P, covariance)
+    return reached

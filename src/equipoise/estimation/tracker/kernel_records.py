@@ -5,10 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.dynamics.rigid_body import ROWS, Body
-from equipoise.dynamics.sensitivities import BLOCK, Columns, work_for
+from equipoise.dynamics.sensitivities import BLOCK, LANES, Columns, work_for
 from equipoise.dynamics.sensitivities import Work as StepWork
 from equipoise.estimation.tracker.event_signatures import COLUMNS, MANY, Room, Watch
-from equipoise.estimation.tracker.predict_correct import SIZE, N, Work
+from equipoise.estimation.tracker.predict_correct import Work
+from equipoise.estimation.tracker.stored_covariance import ROW, SIZE, N
 from equipoise.maths.kernels.compiled import kernel
 from equipoise.model.arrays import Floats, Ints, Square
 
@@ -71,7 +72,7 @@ class Moving(NamedTuple):
 
     y: Floats  # (7 + 96,) attitude, momentum, sensitivities
     step: StepWork
-    phi: Floats  # (6, 15)
+    phi: Floats  # (6, 15) rows of 16
 
 
 class Tools(NamedTuple):
@@ -83,12 +84,13 @@ class Tools(NamedTuple):
 
 
 @kernel
-def new_tools() -> Tools:
-    """Return arrays to work in."""
-    moving = Moving(np.empty(ROWS + BLOCK), work_for(N), np.zeros((6, N)))
-    work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
-                np.zeros((3, SIZE)), np.zeros((3, SIZE)), np.zeros((6, SIZE)))  # fmt: skip
-    room = Room(np.zeros((6, COLUMNS)), np.zeros((3, COLUMNS)), np.zeros((3, COLUMNS)),
-                np.zeros((6, MANY)), np.zeros((3, MANY)), np.zeros(MANY), np.zeros(MANY),
+def new_tools(biased: bool) -> Tools:
+    """Return arrays to work in; ``biased``: the gyro's bias is in use."""
+    moving = Moving(np.empty(ROWS + BLOCK), work_for(N), np.zeros(6 * LANES))
+    work = Work(np.zeros(SIZE * ROW), np.zeros(ROW), np.zeros(3 * ROW), np.zeros((3, 3)),
+                np.zeros((3, 3)), np.zeros(3 * ROW), np.zeros(3 * ROW), np.zeros(6 * ROW),
+                biased)  # fmt: skip
+    room = Room(np.zeros(6 * COLUMNS), np.zeros(3 * COLUMNS), np.zeros(3 * COLUMNS),
+                np.zeros(6 * MANY), np.zeros(3 * MANY), np.zeros(MANY), np.zeros(MANY),
                 np.zeros(SIZE), np.zeros(SIZE))  # fmt: skip
     return Tools(moving, work, room)

@@ -15,7 +15,6 @@ from equipoise.estimation.tracker.kernel_records import (
     REASON,
     Carried,
     Model,
-    Place,
     Tools,
     Walk,
 )
@@ -23,14 +22,13 @@ from equipoise.estimation.tracker.linearisation_point import AT
 from equipoise.estimation.tracker.measurements import Rows
 from equipoise.estimation.tracker.noise_level import learn_noise
 from equipoise.estimation.tracker.predict_correct import (
-    SIZE,
-    N,
     apply,
     expect,
     innovation,
     shrink,
     weigh,
 )
+from equipoise.estimation.tracker.stored_covariance import ROW, N
 from equipoise.maths.kernels.compiled import part
 from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Ints, Triple
@@ -56,17 +54,16 @@ def lag_of(rows: Rows, iq: int) -> float:
 def unsure(P: Floats, lag: float) -> bool:
     """Say whether the predicted attitude, all axes together, is too doubtful to be corrected."""
     limit = UNSURE[1] if lag > SHORTLY else UNSURE[0]
-    return P[0, 0] + P[1, 1] + P[2, 2] > limit * limit
+    return P[0] + P[ROW + 1] + P[2 * ROW + 2] > limit * limit
 
 
 @part
-def take_anew(rows: Rows, iq: int, sd: float, place: Place) -> None:
+def take_anew(rows: Rows, iq: int, sd: float, end: Floats, P: Floats) -> None:
     """Write attitude and rate from a row and the one before, and their covariance.
 
     w = log(q_before^-1 q) / lag, sd 2 sd / lag and a share of w, which changes meanwhile. With no
     row shortly before, the rate stays as estimated, and its sd becomes as much.
     """
-    end, P = place.posterior, place.covariance
     for j in range(4):
         end[j] = rows.q[iq, j]
     spread = max(STILLEST, (end[4] ** 2 + end[5] ** 2 + end[6] ** 2) ** 0.5)
@@ -77,11 +74,10 @@ def take_anew(rows: Rows, iq: int, sd: float, place: Place) -> None:
         for j in range(3):
             end[4 + j] = rate[j] / lag
             spread += ROUGHLY * abs(rate[j]) / lag
-    for i in range(6):
-        for j in range(SIZE):
-            P[i, j] = P[j, i] = 0.0
+    for i in range(6 * ROW):
+        P[i] = 0.0
     for j in range(3):
-        P[j, j], P[3 + j, 3 + j] = sd * sd, spread * spread
+        P[j * ROW + j], P[(3 + j) * ROW + 3 + j] = sd * sd, spread * spread
 
 
 @part
@@ -99,15 +95,10 @@ def judge(
     model: Model, sensor: int, z: Triple, known: bool, walk: Walk, carried: Carried, tools: Tools
 ) -> float:
     """Write x and P+ (x = 0 and P for a row that is not used); return the squared innovation."""
-    P, work, level, watch = (
-        carried.place.covariance,
-        tools.work,
-        carried.levels[sensor],
-        carried.watch,
-    )
+    work, level, watch = tools.work, carried.levels[sensor], carried.watch
     first, second = (0, -1) if sensor == CAMERA else (3, N)
     R = model.sd[sensor] ** 2 * level[0]
-    expect(P, first, second, R, work)
+    expect(first, second, R, work)
     surprise = weigh(z, work)
     odd = surprise > (GATE if known else EARLY_GATE)
     if not walk.again:
@@ -121,7 +112,7 @@ def judge(
     if odd:
         work.x[:] = 0.0
     else:
-        shrink(P, first, second, R, work)
+        shrink(first, second, R, work)
     return surprise
 
 
@@ -133,10 +124,10 @@ def by_attitude(
     """Correct by a row of the camera, or take attitude and rate from it anew."""
     place, y = carried.place, tools.moving.y
     late = carried.watch.counts[onsets.GATED] >= (PATIENT if known else HASTY) and not walk.again
-    if late or unsure(place.covariance, lag_of(rows, iq)):
+    if late or unsure(tools.work.P, lag_of(rows, iq)):
         done[REASON] = ASTRAY if late else BROKEN
         sd = model.sd[CAMERA] * carried.levels[CAMERA, 0] ** 0.5
-        take_anew(rows, iq, sd, place)
+        take_anew(rows, iq, sd, place.posterior, tools.work.P)
         return 0.0
     surprise = judge(model, CAMERA, turn(y, rows.q[iq]), known, walk, carried, tools)
     apply(tools.work.x, rate_of(now, y), y, place.posterior)

@@ -9,8 +9,8 @@ wrong kind or onset would cost.
 """
 
 from equipoise.estimation.tracker.contact_test import LIKELY
-from equipoise.estimation.tracker.event_signatures import COUNT, MANY, ONSETS, Room, Watch
-from equipoise.estimation.tracker.predict_correct import SIZE
+from equipoise.estimation.tracker.event_signatures import COLUMNS, COUNT, MANY, ONSETS, Room, Watch
+from equipoise.estimation.tracker.stored_covariance import SIZE
 from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats
 
@@ -25,7 +25,7 @@ def effect(watch: Watch, h: int, by: int, room: Room, out: Floats) -> None:
     for i in range(SIZE):
         out[i] = 0.0
         for a in range(3):
-            out[i] += watch.X[i, a * MANY + h] * room.v[a, by]
+            out[i] += watch.X[i * COLUMNS + a * MANY + h] * room.v[a * MANY + by]
 
 
 @part
@@ -45,10 +45,10 @@ def doubts(watch: Watch, h: int, room: Room, P: Floats) -> None:
         for i in range(SIZE):
             one[i] = 0.0
             for b in range(3):
-                one[i] += room.p[h] * X[i, b * MANY + h] * V[row[b], h]
+                one[i] += room.p[h] * X[i * COLUMNS + b * MANY + h] * V[row[b] * MANY + h]
         for i in range(SIZE):
             for j in range(SIZE):
-                P[i, j] += one[i] * X[j, a * MANY + h]
+                P[i, j] += one[i] * X[j * COLUMNS + a * MANY + h]
 
 
 @part
@@ -104,7 +104,7 @@ def report(watch: Watch, kind: int, best: int, room: Room, out: Floats) -> None:
         o = 3 + 6 * which
         for a in range(3):
             for h in range(which * ONSETS, (which + 1) * ONSETS):
-                out[o + a] += room.p[h] / share * room.v[a, h]
-                square = (1 + ROUGH**2) * room.v[a, h] ** 2
-                out[o + 3 + a] += room.p[h] / share * (room.V[a, h] + square)
+                out[o + a] += room.p[h] / share * room.v[a * MANY + h]
+                square = (1 + ROUGH**2) * room.v[a * MANY + h] ** 2
+                out[o + 3 + a] += room.p[h] / share * (room.V[a * MANY + h] + square)
             out[o + 3 + a] = abs(out[o + 3 + a] - out[o + a] ** 2) ** 0.5

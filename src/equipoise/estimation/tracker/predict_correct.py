@@ -8,17 +8,38 @@ H picks three rows of the error state (and the bias), so H P is a few rows of P.
 
 from typing import NamedTuple
 
-from equipoise.dynamics.regressor import momentum_columns
+from equipoise.dynamics.forcing import write_inertia
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, rate_of, times
 from equipoise.dynamics.sensitivities import LANES
 from equipoise.estimation.tracker.linearisation_point import AT
+from equipoise.estimation.tracker.stored_covariance import (
+    ROW,
+    SIZE,
+    add_product,
+    add_row,
+    copy_row,
+    fill,
+    lanes_of,
+)
 from equipoise.maths.kernels.compiled import part
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints, Six, Triple
 
-SIZE = 18  # dth, dw, dr, dJ, db
-N = 15  # of which the propagator moves these, in one block
 COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
+
+
+class Work(NamedTuple):
+    """Arrays that a correction works in, made once; (3, 18) lie as rows of P do."""
+
+    P: Floats  # (18, 18) covariance, see ``stored_covariance``
+    x: Floats  # (18,) error state
+    HP: Floats  # (3, 18)
+    S: Floats  # (3, 3) covariance of the innovation
+    inverse: Floats  # (3, 3) of S
+    K: Floats  # (3, 18) gain, transposed
+    left: Floats  # (3, 18) what Joseph's form adds, transposed
+    A: Floats  # (6, 18)
+    biased: bool  # the bias is in use
 
 
 @part
@@ -31,71 +52,81 @@ def placed(body: Body, point: Floats) -> Body:
 
 
 @part
-def unit_columns(now: Now, w: Triple, regress: Floats, y: Floats) -> None:
+def unit_columns(now: Now, w: Triple, y: Floats) -> None:
     """Write the sensitivities to attitude, rate, moment and inertia at the beginning of a step.
 
     At a given rate w another inertia is another momentum: dH = W(w) dJ.
     """
-    momentum_columns(w, regress)
     y[ROWS:] = 0.0
     for k in range(3):
         y[ROWS + k * LANES + k] = 1.0
         unit = times(now.inertia, (1.0 * (k == 0), 1.0 * (k == 1), 1.0 * (k == 2)))
         for j in range(3):
             y[ROWS + (3 + j) * LANES + 3 + k] = unit[j]
-    for j in range(3):
-        for k in range(6):
-            y[ROWS + (3 + j) * LANES + 9 + k] = regress[j, k]
+    write_inertia(w, ROWS + 3 * LANES + 9, y)
 
 
 @part
-def transition(now: Now, mass: float, y: Floats, regress: Floats, phi: Floats) -> None:
-    """Write Phi over a step from the sensitivities at its end: dw = J^-1 (dH - W(w) dJ)."""
-    momentum_columns(rate_of(now, y), regress)
-    for c in range(N):
-        scale = mass if 6 <= c < 9 else 1.0
-        a, f0, f1, f2 = ROWS + c, 0.0, 0.0, 0.0
-        if c >= 9:
-            f0, f1, f2 = regress[0, c - 9], regress[1, c - 9], regress[2, c - 9]
-        dH = (y[a + 3 * LANES] - f0, y[a + 4 * LANES] - f1, y[a + 5 * LANES] - f2)
-        dw = times(now.inverse, dH)
-        for j in range(3):
-            phi[j, c] = scale * y[a + j * LANES]
-            phi[3 + j, c] = scale * dw[j]
+def transition(now: Now, mass: float, y: Floats, f: Floats, phi: Floats) -> None:
+    """Write Phi over a step from the sensitivities at its end: dw = J^-1 (dH - W(w) dJ).
+
+    ``f`` is to hold W(w) in three rows, and comes with what a step has left there.
+    """
+    write_inertia(rate_of(now, y), 9, f)
+    for c in range(lanes_of(y)):
+        a = ROWS + c
+        dw = times(now.inverse, (y[a + 3 * LANES] - f[c], y[a + 4 * LANES] - f[c + LANES],
+                                 y[a + 5 * LANES] - f[c + 2 * LANES]))  # fmt: skip
+        phi[c], phi[c + LANES], phi[c + 2 * LANES] = y[a], y[a + LANES], y[a + 2 * LANES]
+        phi[c + 3 * LANES], phi[c + 4 * LANES], phi[c + 5 * LANES] = dw
+    for j in range(6):
+        for c in range(6, 9):
+            phi[j * LANES + c] *= mass
 
 
 @part
-def ahead(phi: Floats, row: int, X: Floats, column: int) -> float:
+def ahead(phi: Floats, row: int, X: Floats, width: int, column: int) -> float:
     """Return an element of Phi X; written out, so that neighbouring columns go at once."""
-    f, c = phi[row], column
-    return (f[0] * X[0, c] + f[1] * X[1, c] + f[2] * X[2, c] + f[3] * X[3, c] + f[4] * X[4, c]
-            + f[5] * X[5, c] + f[6] * X[6, c] + f[7] * X[7, c] + f[8] * X[8, c] + f[9] * X[9, c]
-            + f[10] * X[10, c] + f[11] * X[11, c] + f[12] * X[12, c] + f[13] * X[13, c]
-            + f[14] * X[14, c])  # fmt: skip
+    r, c, w = row * LANES, column, width
+    return (phi[r] * X[c] + phi[r + 1] * X[w + c] + phi[r + 2] * X[2 * w + c]
+            + phi[r + 3] * X[3 * w + c] + phi[r + 4] * X[4 * w + c] + phi[r + 5] * X[5 * w + c]
+            + phi[r + 6] * X[6 * w + c] + phi[r + 7] * X[7 * w + c] + phi[r + 8] * X[8 * w + c]
+            + phi[r + 9] * X[9 * w + c] + phi[r + 10] * X[10 * w + c] + phi[r + 11] * X[11 * w + c]
+            + phi[r + 12] * X[12 * w + c] + phi[r + 13] * X[13 * w + c]
+            + phi[r + 14] * X[14 * w + c])  # fmt: skip
 
 
 @part
-def predict_covariance(
-    inertia: Six, phi: Floats, noise: Floats, dt: float, P: Floats, A: Floats
-) -> None:
+def predict_block(phi: Floats, first: int, P: Floats, A: Floats) -> None:
+    """Write a block of columns of Phi P."""
+    lanes = lanes_of(P)
+    for i in range(6):
+        for j in range(first, first + lanes):
+            A[i * ROW + j] = ahead(phi, i, P, ROW, j)
+
+
+@part
+def predict_covariance(inertia: Six, phi: Floats, noise: Floats, dt: float, work: Work) -> None:
     """Write Phi P Phi^T + Q dt in place; torque noise reaches the rate through J.
 
     Below its sixth row Phi is the unit matrix, so only six rows and columns of P change.
     """
+    P, A, lanes = work.P, work.A, lanes_of(work.P)
+    fill(P)
+    predict_block(phi, 0, P, A)
+    if work.biased:
+        predict_block(phi, LANES, P, A)
     for i in range(6):
-        for j in range(SIZE):
-            A[i, j] = ahead(phi, i, P, j)
-    for i in range(6):
-        for j in range(i + 1):
-            total = 0.0
-            for k in range(N):
-                total += A[i, k] * phi[j, k]
-            P[i, j] = P[j, i] = total
         for j in range(6, SIZE):
-            P[i, j] = P[j, i] = A[i, j]
+            P[i * ROW + j] = A[i * ROW + j]
+        for j in range(i, 6):
+            total = 0.0
+            for k in range(lanes):  # the last is one of the bias in A, and zero in Phi
+                total += A[i * ROW + k] * phi[j * LANES + k]
+            P[i * ROW + j] = total
     for j in range(SIZE):
         spread = noise[j] / inertia[j - 3] if 3 <= j < 6 else noise[j]
-        P[j, j] += spread * spread * dt
+        P[j * ROW + j] += spread * spread * dt
 
 
 @part
@@ -104,7 +135,7 @@ def add_stops(stop: int, node: int, stop_node: Ints, stop_added: Floats, P: Floa
     while stop < stop_node.shape[0] and stop_node[stop] <= node:
         for i in range(3):
             for j in range(3):
-                P[6 + i, 6 + j] += stop_added[stop, i, j]
+                P[(6 + i) * ROW + 6 + j] += stop_added[stop, i, j]
         stop += 1
     return stop
 
@@ -123,28 +154,18 @@ def invert3(S: Floats, out: Floats) -> None:
     out[1, 0], out[2, 0], out[2, 1] = out[0, 1], out[0, 2], out[1, 2]
 
 
-class Work(NamedTuple):
-    """Arrays that a correction works in, made once."""
-
-    x: Floats  # (18,) error state
-    HP: Floats  # (3, 18)
-    S: Floats  # (3, 3) covariance of the innovation
-    inverse: Floats  # (3, 3) of S
-    K: Floats  # (3, 18) gain, transposed
-    left: Floats  # (3, 18) what Joseph's form adds, transposed
-    A: Floats  # (6, 18)
-
-
 @part
-def expect(P: Floats, first: int, second: int, R: float, work: Work) -> None:
+def expect(first: int, second: int, R: float, work: Work) -> None:
     """Write H P, S = H P H^T + R E and its inverse."""
-    HP, S = work.HP, work.S
+    P, HP, S = work.P, work.HP, work.S
     for r in range(3):
-        for j in range(SIZE):
-            HP[r, j] = P[first + r, j] + (P[second + r, j] if second >= 0 else 0.0)
+        copy_row(P, first + r, HP, r * ROW)
+        if second >= 0:
+            add_row(P, second + r, HP, r * ROW)
     for r in range(3):
         for c in range(3):
-            S[r, c] = HP[r, first + c] + (HP[r, second + c] if second >= 0 else 0.0)
+            at = r * ROW + c
+            S[r, c] = HP[at + first] + (HP[at + second] if second >= 0 else 0.0)
         S[r, r] += R
     invert3(S, work.inverse)
 
@@ -157,36 +178,29 @@ def weigh(z: Triple, work: Work) -> float:
     for r in range(3):
         for c in range(3):
             surprise += z[r] * V[r, c] * z[c]
-        for i in range(SIZE):
-            K[r, i] = V[r, 0] * HP[0, i] + V[r, 1] * HP[1, i] + V[r, 2] * HP[2, i]
-    for i in range(SIZE):
-        x[i] = K[0, i] * z[0] + K[1, i] * z[1] + K[2, i] * z[2]
+        for i in range(ROW):
+            K[r * ROW + i] = V[r, 0] * HP[i] + V[r, 1] * HP[ROW + i] + V[r, 2] * HP[2 * ROW + i]
+    for i in range(ROW):
+        x[i] = K[i] * z[0] + K[ROW + i] * z[1] + K[2 * ROW + i] * z[2]
     return surprise
 
 
 @part
-def add_product(P: Floats, A: Floats, B: Floats, sign: float) -> None:
-    """Add sign A^T B, (18, 18), which is symmetric: one half is computed, for both."""
-    for i in range(SIZE):
-        a, b, c = sign * A[0, i], sign * A[1, i], sign * A[2, i]
-        for j in range(i + 1):
-            P[i, j] = P[j, i] = P[i, j] + (a * B[0, j] + b * B[1, j] + c * B[2, j])
-
-
-@part
-def shrink(P: Floats, first: int, second: int, R: float, work: Work) -> None:
+def shrink(first: int, second: int, R: float, work: Work) -> None:
     """Write P+ in Joseph's form, by parts: A = P - K H P;  P+ = A + (K R - A H^T) K^T.
 
     The second part is of rounding alone, and takes back along H what A was rounded by: it has to
-    be found from A as it is stored. P is symmetric to the last digit, as the prediction takes it.
+    be found from A as it is stored.
     """
-    K, left = work.K, work.left
-    add_product(P, K, work.HP, -1.0)
+    P, K, left = work.P, work.K, work.left
+    add_product(P, K, work.HP, -1.0, work.biased)
     for r in range(3):
-        for i in range(SIZE):
-            AH = P[i, first + r] + (P[i, second + r] if second >= 0 else 0.0)
-            left[r, i] = R * K[r, i] - AH
-    add_product(P, left, K, 1.0)
+        copy_row(P, first + r, left, r * ROW)
+        if second >= 0:
+            add_row(P, second + r, left, r * ROW)
+    for j in range(3 * ROW):
+        left[j] = R * K[j] - left[j]
+    add_product(P, left, K, 1.0, work.biased)
 
 
 @part
@@ -216,8 +230,10 @@ def lean(now: Now, phi: Floats, point: Floats, y: Floats, end: Floats) -> None:
     b0, b1, b2 = rate_of(now, y)
     for c in range(9):
         off = end[AT + c] - point[c]
-        a0, a1, a2 = a0 + phi[0, 6 + c] * off, a1 + phi[1, 6 + c] * off, a2 + phi[2, 6 + c] * off
-        b0, b1, b2 = b0 + phi[3, 6 + c] * off, b1 + phi[4, 6 + c] * off, b2 + phi[5, 6 + c] * off
+        k, n = 6 + c, LANES
+        a0, a1, a2 = a0 + phi[k] * off, a1 + phi[n + k] * off, a2 + phi[2 * n + k] * off
+        k += 3 * n
+        b0, b1, b2 = b0 + phi[k] * off, b1 + phi[n + k] * off, b2 + phi[2 * n + k] * off
     end[0], end[1], end[2], end[3] = turned(y, a0, a1, a2)
     end[4], end[5], end[6] = b0, b1, b2
 
@@ -241,4 +257,4 @@ def note(t: float, end: Floats, P: Floats, surprise: float, out: Floats) -> None
     for j in range(n):
         out[1 + j] = end[j]
     for j in range(SIZE):
-        out[1 + n + j] = P[j, j] ** 0.5
+        out[1 + n + j] = P[j * ROW + j] ** 0.5

@@ -49,7 +49,7 @@ from equipoise.estimation.tracker.linearisation_point import (
 from equipoise.estimation.tracker.measurements import Rows, followed_by, later
 from equipoise.estimation.tracker.mixture import EVENT
 from equipoise.estimation.tracker.noise_level import settled
-from equipoise.estimation.tracker.predict_correct import SIZE
+from equipoise.estimation.tracker.stored_covariance import SIZE
 from equipoise.model.arrays import Floats
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough

@@ -40,8 +40,9 @@ from equipoise.dynamics.propagation import rigid_body, stacked
 from equipoise.estimation.tracker.kernel_records import EVENTS, Model, Place, Written
 from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.estimation.tracker.measurements import rows_of
-from equipoise.estimation.tracker.predict_correct import BODY, COM, SIZE
+from equipoise.estimation.tracker.predict_correct import BODY, COM
 from equipoise.estimation.tracker.relinearisation import Memory, follow
+from equipoise.estimation.tracker.stored_covariance import SIZE
 from equipoise.maths.chi_square import chi_square_limit
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (

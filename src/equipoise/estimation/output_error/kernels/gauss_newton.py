@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from equipoise.dynamics.forcing import groups_of
 from equipoise.dynamics.propagation import evaluate
 from equipoise.dynamics.rigid_body import KNOWN_D, ROWS, Body, body_at, times
 from equipoise.dynamics.sensitivities import LANES, Columns, Inputs, place
@@ -185,7 +186,7 @@ def along_part(
     parts, sensor, bias = posed.parts, here[SENSOR:ERROR], here[-3:]
     columns, _ = columns_within(parts, p)
     m, total = columns.kinds.shape[0], posed.columns.kinds.shape[0]
-    inputs = Inputs(posed.maps, posed.t, known, posed.owners, columns)
+    inputs = Inputs(posed.maps, posed.t, known, posed.owners, columns, groups_of(columns))
     work = narrowed(share.own, m, m + posed.slots.shape[0] - total)
     q0, w0, nodes = here[:W], here[W : W + 3], (parts.nodes[p], parts.nodes[p + 1])
     cost, iq, iw, iv = accumulate(body, inputs, q0, w0, sensor, bias, posed.observed, posed.limit,

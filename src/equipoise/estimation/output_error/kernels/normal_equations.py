@@ -321,7 +321,7 @@ def accumulate(
     camera, gyro and vectors from there on. Write the residuals in units of sd; return half the cost
     and the first rows of what follows. ``work.y`` is left at the end.
     """
-    (maps, t, known, _, columns), (y, y0, dy0, dy1, step) = inputs, work[:5]
+    (maps, t, known, _, columns), (y, y0, dy0, dy1, step) = inputs[:5], work[:5]
     n, last = columns.kinds.shape[0], t.shape[0] - 2
     q_node, w_node, q_share, w_share = (data.attitude_node, data.rate_node, data.attitude_share,
                                         data.rate_share)  # fmt: skip

@@ -1,0 +1,92 @@
+"""The covariance of the error state as the kernels keep it, compiled.
+
+Row by row in one array, each row filled up with zeros to two blocks of LANES numbers, so that the
+compiler knows where everything is and works on whole machine vectors. What is known of the bias
+alone lies in the second block, which is passed over where no gyro has sent a row.
+
+Between steps only what is on and above the diagonal counts; ``fill`` writes the rest, which only
+the prediction reads.
+"""
+
+from equipoise.dynamics.sensitivities import LANES
+from equipoise.maths.kernels.compiled import part
+from equipoise.model.arrays import Floats, Square
+
+SIZE, N = 18, 15  # dth, dw, dr, dJ, db; the propagator moves the first 15, in one block
+ROW = 2 * LANES  # numbers from one row to the next
+
+
+@part
+def take(covariance: Square, P: Floats) -> None:
+    """Write P from a matrix."""
+    for i in range(SIZE):
+        for j in range(SIZE):
+            P[i * ROW + j] = covariance[i, j]
+
+
+@part
+def give(P: Floats, covariance: Square) -> None:
+    """Write the matrix, symmetric to the last digit."""
+    for i in range(SIZE):
+        for j in range(i, SIZE):
+            covariance[i, j] = covariance[j, i] = P[i * ROW + j]
+
+
+@part
+def coupled(covariance: Square) -> bool:
+    """Say whether the bias has to do with the rest."""
+    for i in range(N):
+        for j in range(N, SIZE):
+            if covariance[i, j] != 0.0:
+                return True
+    return False
+
+
+@part
+def lanes_of(P: Floats) -> int:
+    """Return LANES, unknown to the compiler: a short known loop it writes out, one by one."""
+    return min(LANES, P.shape[0])
+
+
+@part
+def fill(P: Floats) -> None:
+    """Write what is below the diagonal."""
+    for i in range(1, SIZE):
+        for j in range(i):
+            P[i * ROW + j] = P[j * ROW + i]
+
+
+@part
+def copy_row(P: Floats, row: int, out: Floats, at: int) -> None:
+    """Write a row of P, of which only the part above the diagonal need be there."""
+    for j in range(ROW):
+        out[at + j] = P[row * ROW + j]
+    for j in range(row):
+        out[at + j] = P[j * ROW + row]
+
+
+@part
+def add_row(P: Floats, row: int, out: Floats, at: int) -> None:
+    """Add a row of P, of which only the part above the diagonal need be there."""
+    for j in range(row):
+        out[at + j] += P[j * ROW + row]
+    for j in range(row, SIZE):
+        out[at + j] += P[row * ROW + j]
+
+
+@part
+def add_block(P: Floats, A: Floats, B: Floats, sign: float, rows: int, first: int) -> None:
+    """Add sign A^T B to a block of columns, in its rows on and above the diagonal."""
+    lanes = lanes_of(P)
+    for i in range(rows):
+        a, b, c = sign * A[i], sign * A[ROW + i], sign * A[2 * ROW + i]
+        for j in range(first, first + lanes):
+            P[i * ROW + j] += a * B[j] + b * B[ROW + j] + c * B[2 * ROW + j]
+
+
+@part
+def add_product(P: Floats, A: Floats, B: Floats, sign: float, biased: bool) -> None:
+    """Add sign A^T B, which is symmetric; A and B are (3, 18), in rows as those of P."""
+    add_block(P, A, B, sign, LANES, 0)
+    if biased:
+        add_block(P, A, B, sign, SIZE, LANES)
