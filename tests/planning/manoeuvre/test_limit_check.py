@@ -5,11 +5,28 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
-from equipoise.planning.manoeuvre.initial_population import first_choices, home_share
-from equipoise.planning.manoeuvre.limit_check import Peaks
+from equipoise.model.errors import InputError
+from equipoise.planning.manoeuvre.initial_population import (
+    first_choices,
+    home_share,
+    mildest,
+)
+from equipoise.planning.manoeuvre.limit_check import covariances_of, peaks, rehearsal
 from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen, range_of
-from equipoise.planning.manoeuvre.plan import excess
+from equipoise.planning.manoeuvre.plan import (
+    BEYOND_REACH,
+    REACHED,
+    Trials,
+    Wish,
+    check_reach,
+    excess,
+    planned,
+    search_for,
+)
+from equipoise.planning.manoeuvre.reference_manoeuvre import usual
+from equipoise.planning.manoeuvre.scenario import stated_prior
 
 TILT, RATE = np.radians(30.0), np.radians(5.0)
 
@@ -23,8 +40,8 @@ def test_an_excess_is_of_the_mean_and_four_sd_of_the_logarithm():
     10 x 1.3^4 = 28.56 deg, within 30. 11 x 1.3^4 = 31.42 is 0.0472 of itself beyond.
     """
     slow = np.radians(1.0)
-    kept = [Peaks(np.radians(t), slow) for t in (13.0, 10.0, 10.0 / 1.3)]
-    passed = [Peaks(np.radians(1.1 * t), slow) for t in (13.0, 10.0, 10.0 / 1.3)]
+    kept = np.array([(np.radians(t), slow) for t in (13.0, 10.0, 10.0 / 1.3)])
+    passed = np.array([(np.radians(1.1 * t), slow) for t in (13.0, 10.0, 10.0 / 1.3)])
     assert excess(space(), kept) == 0.0
     assert excess(space(), passed) == pytest.approx(0.0472, abs=1e-4)
 
@@ -32,8 +49,7 @@ def test_an_excess_is_of_the_mean_and_four_sd_of_the_logarithm():
 def test_an_excess_counts_tilt_and_rate():
     """Rates: 4 x 1.2^4 = 8.294 is 0.6589 beyond 5. Tilts: 11 x 1.3^4 is 0.0472 beyond 30."""
     found = ((14.3, 4.8), (11, 4), (11 / 1.3, 4 / 1.2))
-    peaks = [Peaks(np.radians(tilt), np.radians(rate)) for tilt, rate in found]
-    assert excess(space(), peaks) == pytest.approx(0.6589 + 0.0472, abs=2e-4)
+    assert excess(space(), np.radians(found)) == pytest.approx(0.6589 + 0.0472, abs=2e-4)
 
 
 def test_the_range_of_slow_masses_is_limited_by_time():
@@ -94,3 +110,82 @@ def test_masses_that_stand_elsewhere_begin_from_where_they_are():
     mass = stood.testbed.mass_named("coarse_x")
     assert home_share(stood, mass) == 0.0
     assert home_share(space(), mass) == pytest.approx(0.5)
+
+
+# --- Limits out of reach -----------------------------------------------------------------------
+
+
+def wish_for(testbed):
+    return Wish("both", "A", Params(), stated_prior(testbed))
+
+
+def counted(pieces_tried):
+    """What tries pieces here, and counts them."""
+
+    def spread(work, pieces):
+        pieces_tried.append(len(pieces))
+        return map(work, pieces)
+
+    return spread
+
+
+def test_limits_that_no_manoeuvre_keeps_end_a_search_after_few():
+    """Sputnix as it is stated, 40 um off to any side: let go for two minutes it turns over."""
+    where, tried = space("sputnix", 120.0), []
+    with pytest.raises(InputError) as caught:
+        planned(where, wish_for(where.testbed), 1, Trials(400, counted(tried)))
+    assert tried == [len(mildest(where)) + REACHED]
+    text = str(caught.value)
+    assert text.startswith(where.testbed.name)
+    assert "times the tilt limit of 30 deg" in text
+    assert "times the rate limit of 5 deg/s" in text
+    assert "120 s" in text
+    assert "prior record" in text
+
+
+def test_the_excess_that_is_said_is_of_the_nearest_manoeuvre():
+    """Peaks of 90 deg and 4 deg/s, then of 70.8 deg: limits 30 deg, 5 deg/s; 2.36 times is named.
+
+    An excess of 1.36 is beyond reach; 0.9 would not be.
+    """
+    where = space("sputnix", 120.0)
+    search, numbers = search_for(where, wish_for(where.testbed), 1), mildest(where)[:2]
+    said = np.radians([[90.0, 4.0], [70.8, 4.0]])
+    with pytest.raises(InputError, match=r"comes to 2\.4 times the tilt limit of 30 deg, with"):
+        check_reach(search, lambda _work, _pieces: said, numbers)
+    assert BEYOND_REACH == 1.0
+    check_reach(search, lambda _work, _pieces: np.radians([[90.0, 4.0], [57.0, 4.0]]), numbers)
+
+
+def test_the_mildest_manoeuvres_move_least():
+    """Upright, at rest; masses stay, go half the way to the lowest end of their rail, or all."""
+    where = space("sputnix", 120.0)
+    stay, half, low, later = (chosen(where, numbers) for numbers in mildest(where))
+    for manoeuvre in (stay, half, low, later):
+        assert manoeuvre.tilt == 0.0
+        np.testing.assert_array_equal(manoeuvre.rate, np.zeros(3))
+    assert all(d == 0.0 for _, targets in stay.moves for d in targets.values())
+    assert half.moves[0][1]["z1"] == pytest.approx(-0.025, abs=1e-3)
+    assert low.moves[0][1]["z1"] == pytest.approx(-0.050)
+    assert low.moves[0][1]["x1"] == 0.0
+    assert later.moves[0][0] > low.moves[0][0]
+
+
+def test_masses_that_stand_somewhere_stay_there_in_the_mildest():
+    where = space("sputnix", 120.0, standing={"x1": 0.020})
+    targets = chosen(where, mildest(where)[0]).moves[0][1]
+    assert targets["x1"] == pytest.approx(0.020)
+    assert targets["y1"] == 0.0
+
+
+def test_several_platforms_at_once_are_as_each_by_itself():
+    where = space("sputnix", 60.0, standing={})
+    search = search_for(where, wish_for(where.testbed), 1)
+    m = usual(where.testbed, 60.0, {})
+    tried = rehearsal(search.testbed, search.expected, m, search.wish.params)
+    three, names = search.platforms.part(0, 3), search.names
+    together = covariances_of(tried, three, None, names)
+    for k in range(3):
+        one = search.platforms.part(k, k + 1)
+        np.testing.assert_array_equal(peaks(tried, three)[k], peaks(tried, one)[0])
+        np.testing.assert_allclose(together[k], covariances_of(tried, one, None, names)[0], 1e-9)

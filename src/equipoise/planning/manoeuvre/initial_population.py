@@ -32,6 +32,33 @@ def first_choices(space: Space, count: int, rng: np.random.Generator) -> list[Fl
     ]
 
 
+def mildest(space: Space) -> list[Floats]:
+    """Return choices that move a platform least: upright, at rest, masses where they stand or low.
+
+    A platform that hangs lower comes less far from the vertical; how early it should is open.
+    """
+    return [
+        mild(space, down, early) for down, early in ((0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 0.3))
+    ]
+
+
+def mild(space: Space, down: float, early: float) -> Floats:
+    """Return such a choice: masses go a part of their way to the lowest end, at a share of time."""
+    moves = space.moves if space.testbed.masses else 0
+    shares = [
+        (1 - down) * stand_share(space, kind[0]) + down * lowest(space, kind[0])
+        for kind in space.kinds
+    ]
+    start, still = np.full(5, 0.5), np.full(2 * len(space.driven), 0.5)
+    return np.concatenate([start, np.full(moves, early), np.tile(shares, moves), still])
+
+
+def stand_share(space: Space, mass: SlidingMass) -> float:
+    """Return where a mass stands on its rail, from 0 to 1."""
+    (low, high), now = range_of(space, mass), space.standing.get(mass.name, 0.0)
+    return (now - low) / (high - low)
+
+
 def likely(space: Space, rng: np.random.Generator) -> Floats:
     """Return a choice of the kind that gave much information before."""
     angle, tilt = rng.uniform(0.0, 2 * np.pi), rng.uniform(*TILTED)

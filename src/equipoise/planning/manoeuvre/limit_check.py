@@ -6,36 +6,30 @@ platform's own truth. That is exact: measured values do not enter the informatio
 sensors are taken as means of their rows, and what hanging masses add is left out.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from equipoise.dynamics.propagation import propagate, rigid_body
+from equipoise.estimation.output_error.kernels.many_points import information_at, peaks_at
 from equipoise.estimation.output_error.problem import Problem
+from equipoise.estimation.output_error.problem import posed as as_posed
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import Unknowns
-from equipoise.maths import pseudo_inertia
-from equipoise.maths.attitude import tilt
-from equipoise.maths.linalg import inverse_where
-from equipoise.model.arrays import Square, Vector3
+from equipoise.estimation.parameters.retraction import TORQUE as BEHIND_COM
+from equipoise.maths.linalg import inverse_blocks
+from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 from equipoise.planning.manoeuvre.noiseless_record import imagined
-from equipoise.planning.manoeuvre.predicted_information import Known, informed, posed, true_point
-from equipoise.planning.manoeuvre.scenario import Scenario, let_go
+from equipoise.planning.manoeuvre.predicted_information import Known, add_known, posed, true_point
+from equipoise.planning.manoeuvre.scenario import Platforms, Scenario, let_go
 
 S = TypeVar("S", AttitudeSensor, Gyro, Accelerometer, SunSensor, Magnetometer)
-DENSE_CAMERA, DENSE_GYRO = 5.0, 10.0  # Hz, chosen: a swing of some 10 s is well sampled
-DENSE_VECTOR = 5.0  # Hz, chosen: as the camera, for it too sees where the platform is turned
-
-
-class Peaks(NamedTuple):
-    """The peaks of a motion."""
-
-    tilt: float  # rad
-    rate: float  # rad/s
+DENSE_CAMERA, DENSE_GYRO = 2.5, 5.0  # Hz, chosen: a swing of some 10 s is well sampled
+DENSE_VECTOR = 2.5  # Hz, chosen: as the camera, for it too sees where the platform is turned
 
 
 def for_search(testbed: Testbed) -> Testbed:
@@ -86,24 +80,29 @@ def rehearsal(
     return Rehearsal(problem, point, manoeuvre, testbed.up)
 
 
-def started(tried: Rehearsal, scenario: Scenario) -> Unknowns:
-    """Return the truth of one platform, let go nearly as planned."""
-    body, point = scenario.body, tried.expected
-    six = pseudo_inertia.from_inertia(body.inertia_C)
-    q0, w0 = let_go(point.q0, tried.manoeuvre, scenario, tried.up)
-    return replace(point, six=six, com=body.com, q0=q0, w0=w0)
+def started(tried: Rehearsal, platforms: Platforms) -> Floats:
+    """Return the truth of each platform, let go nearly as planned, as points (k, p) of a fit."""
+    q0, w0 = let_go(tried.expected.q0, tried.manoeuvre, platforms.lean, platforms.push, tried.up)
+    points = np.tile(tried.expected.flat, (len(q0), 1))
+    points[:, :BEHIND_COM] = np.hstack([q0, w0, platforms.six, platforms.com])
+    return points
 
 
-def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
-    """Return the peaks of one platform."""
+def peaks(tried: Rehearsal, platforms: Platforms) -> Floats:
+    """Return the greatest tilt (rad) and rate (rad/s) of each platform, (k, 2)."""
+    return peaks_at(as_posed(tried.problem), started(tried, platforms), tried.up)
+
+
+def covariances_of(
+    tried: Rehearsal, platforms: Platforms, known: Known | None, names: Sequence[str]
+) -> Floats:
+    """Return the covariance of some unknowns for each platform, (k, m, m).
+
+    Unobservable ones are as wide as the fit's anchor. LinAlgError where they are wider than
+    rounding lets see.
+    """
     problem = tried.problem
-    rigid = rigid_body(truth.body(problem.mass), problem.gravity)
-    motion = propagate(rigid, problem.maps, problem.line, truth.q0, truth.w0)
-    rate = float(np.linalg.norm(motion.rate, axis=1).max())
-    return Peaks(float(tilt(motion.q, tried.up).max()), rate)
-
-
-def covariance_of(tried: Rehearsal, truth: Unknowns, known: Known | None) -> Square:
-    """Return the covariance of all unknowns; unobservable ones are as wide as the fit's anchor."""
-    normal = informed(tried.problem, truth, known).at.normal
-    return inverse_where(normal, ~tried.problem.prior.held)
+    information = information_at(as_posed(problem), started(tried, platforms))
+    if known is not None:
+        add_known(information, problem.layout.names, known)
+    return inverse_blocks(information, [problem.layout.names.index(name) for name in names])

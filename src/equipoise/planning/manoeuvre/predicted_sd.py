@@ -24,10 +24,10 @@ from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.reasons.reason import Reason, distinct
 from equipoise.model.testbed import Testbed
-from equipoise.planning.manoeuvre.limit_check import Peaks, for_search, peaks, rehearsal, started
+from equipoise.planning.manoeuvre.limit_check import for_search, peaks, rehearsal
 from equipoise.planning.manoeuvre.plan import Wish
 from equipoise.planning.manoeuvre.predicted_information import Predicted, predicted
-from equipoise.planning.manoeuvre.scenario import Scenario, let_go, scenarios
+from equipoise.planning.manoeuvre.scenario import Scenario, let_go, platforms_of, scenarios
 
 PLATFORMS = 240  # chosen: of 60 the rms changed by up to a third, by the few with the largest sd
 TRIED = 300  # chosen: if all keep the limits, then 99 % of all platforms do
@@ -71,17 +71,17 @@ class Promise:
 
 def peaks_of(
     testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, rng: np.random.Generator
-) -> list[Peaks]:
-    """Return the peaks of platforms that no search has used."""
+) -> Floats:
+    """Return the greatest tilt (rad) and rate (rad/s) of platforms that no search has used."""
     expected, *others = scenarios(wish.prior, TRIED + 1, rng)
     tried = rehearsal(for_search(testbed), expected, manoeuvre, wish.params, wish.known)
-    return [peaks(tried, started(tried, scenario)) for scenario in others]
+    return peaks(tried, platforms_of(others))
 
 
 def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:
     """Return a manoeuvre as a hand that errs begins it."""
     q0 = leaning(up, manoeuvre.low_side, manoeuvre.tilt)
-    q, rate = let_go(q0, manoeuvre, scenario, up)
+    q, rate = let_go(q0, manoeuvre, scenario.lean, scenario.push, up)
     down = -to_matrix(q)[2]
     sinks = down - (down @ up) * up
     size = float(np.linalg.norm(sinks))
@@ -107,7 +107,7 @@ def promise(
         for s in drawn
     ]
     expected, others = said[0], said[1:]
-    tilts, rates = np.array(peaks_of(testbed, manoeuvre, wish, rng)).T
+    tilts, rates = peaks_of(testbed, manoeuvre, wish, rng).T
     return Promise(
         manoeuvre,
         BODY,
