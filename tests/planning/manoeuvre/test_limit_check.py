@@ -13,7 +13,12 @@ from equipoise.planning.manoeuvre.initial_population import (
     home_share,
     mildest,
 )
-from equipoise.planning.manoeuvre.limit_check import covariances_of, peaks, rehearsal
+from equipoise.planning.manoeuvre.limit_check import (
+    course_of,
+    covariances_of,
+    peaks,
+    rehearsal,
+)
 from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen, range_of
 from equipoise.planning.manoeuvre.plan import (
     BEYOND_REACH,
@@ -182,10 +187,12 @@ def test_several_platforms_at_once_are_as_each_by_itself():
     where = space("sputnix", 60.0, standing={})
     search = search_for(where, wish_for(where.testbed), 1)
     m = usual(where.testbed, 60.0, {})
-    tried = rehearsal(search.testbed, search.expected, m, search.wish.params)
+    course = course_of(search.testbed, m, 1.0)
+    tried = rehearsal(search.testbed, where.testbed.body, course, search.wish.params)
     three, names = search.platforms.part(0, 3), search.names
     together = covariances_of(tried, three, None, names)
     for k in range(3):
         one = search.platforms.part(k, k + 1)
-        np.testing.assert_array_equal(peaks(tried, three)[k], peaks(tried, one)[0])
+        alone, bed = peaks(search.testbed, course, one), search.testbed
+        np.testing.assert_array_equal(peaks(bed, course, three)[k], alone[0])
         np.testing.assert_allclose(together[k], covariances_of(tried, one, None, names)[0], 1e-9)

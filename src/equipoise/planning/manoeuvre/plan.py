@@ -30,7 +30,8 @@ from equipoise.planning.manoeuvre.cma_es import least
 from equipoise.planning.manoeuvre.criterion import NAMES, Criterion, Quantity, score, size_of
 from equipoise.planning.manoeuvre.initial_population import first_choices, mildest
 from equipoise.planning.manoeuvre.limit_check import (
-    Rehearsal,
+    Course,
+    course_of,
     covariances_of,
     for_search,
     peaks,
@@ -42,7 +43,6 @@ from equipoise.planning.manoeuvre.predicted_information import Known
 from equipoise.planning.manoeuvre.scenario import (
     Platforms,
     Prior,
-    Scenario,
     platforms_of,
     scenarios,
 )
@@ -94,7 +94,6 @@ class Search:
     space: Space
     testbed: Testbed  # as for a search
     wish: Wish
-    expected: Scenario
     platforms: Platforms  # the expected one first
     guarded: Platforms  # whose limits are to be kept
 
@@ -111,7 +110,7 @@ def search_for(space: Space, wish: Wish, seed: int) -> Search:
     guarded = scenarios(wish.prior, GUARDED + 1, rng)[1:]
     wish = replace(wish, params=replace(wish.params, fineness=COARSE * wish.params.fineness))
     return Search(
-        space, for_search(space.testbed), wish, drawn[0], platforms_of(drawn), platforms_of(guarded)
+        space, for_search(space.testbed), wish, platforms_of(drawn), platforms_of(guarded)
     )
 
 
@@ -126,28 +125,36 @@ def excess(space: Space, found: Floats) -> float:
     return float(np.sum(np.maximum(guarded(found) / space.limits - 1, 0.0)))
 
 
-def excess_of(search: Search, tried: Rehearsal) -> float:
+def excess_of(search: Search, course: Course) -> float:
     """Return the excess over the first platforms, and over all where these keep to the limits."""
-    found = peaks(tried, search.guarded.part(0, FIRST))
+    found = peaks(search.testbed, course, search.guarded.part(0, FIRST))
     beyond = excess(search.space, found)
     if beyond > 0:
         return beyond
-    others = peaks(tried, search.guarded.part(FIRST))
+    others = peaks(search.testbed, course, search.guarded.part(FIRST))
     return excess(search.space, np.vstack([found, others]))
 
 
 def merit(search: Search, manoeuvre: Manoeuvre) -> float:
     """Return the cost of a manoeuvre."""
+    course = course_of(search.testbed, manoeuvre, search.wish.params.fineness)
+    beyond = excess_of(search, course)
+    worst = NOTHING + STIFF * beyond
+    return worst if beyond > HOPELESS else min(told(search, course) + STIFF * beyond, worst)
+
+
+def told(search: Search, course: Course) -> float:
+    """Return the score of what a record tells of the platforms; infinite: of no use for some."""
     wish, names = search.wish, search.names
-    tried = rehearsal(search.testbed, search.expected, manoeuvre, wish.params, wish.known)
+    body = wish.prior.body
+    tried = rehearsal(search.testbed, body, course, wish.params, wish.known)
     if tried.problem.scale_open:
-        return NOTHING
-    beyond = excess_of(search, tried)
-    if beyond > HOPELESS:
-        return NOTHING + STIFF * beyond
-    each = covariances_of(tried, search.platforms, wish.known, names)
-    size = size_of(wish.prior.body, names)
-    return score(np.mean(each, axis=0), size, wish.criterion) + STIFF * beyond
+        return np.inf
+    try:
+        each = covariances_of(tried, search.platforms, wish.known, names)
+    except np.linalg.LinAlgError:
+        return np.inf
+    return score(np.mean(each, axis=0), size_of(body, names), wish.criterion)
 
 
 def planned(space: Space, wish: Wish, seed: int, trials: Trials = USUAL) -> Manoeuvre:
@@ -171,9 +178,9 @@ def check_reach(search: Search, spread: Spread, tried: Sequence[Floats]) -> None
 
 def reached(search: Search, numbers: Floats) -> Floats:
     """Return tilt (rad) and rate (rad/s) with a margin, (2,), of the manoeuvre of numbers."""
-    wish, manoeuvre = search.wish, chosen(search.space, numbers)
-    tried = rehearsal(search.testbed, search.expected, manoeuvre, wish.params, wish.known)
-    return guarded(peaks(tried, search.guarded.part(0, FIRST)))
+    manoeuvre, fineness = chosen(search.space, numbers), search.wish.params.fineness
+    course = course_of(search.testbed, manoeuvre, fineness)
+    return guarded(peaks(search.testbed, course, search.guarded.part(0, FIRST)))
 
 
 def worth(search: Search, numbers: Floats) -> float:

@@ -24,7 +24,7 @@ from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.reasons.reason import Reason, distinct
 from equipoise.model.testbed import Testbed
-from equipoise.planning.manoeuvre.limit_check import for_search, peaks, rehearsal
+from equipoise.planning.manoeuvre.limit_check import course_of, for_search, peaks
 from equipoise.planning.manoeuvre.plan import Wish
 from equipoise.planning.manoeuvre.predicted_information import Predicted, predicted
 from equipoise.planning.manoeuvre.scenario import Scenario, let_go, platforms_of, scenarios
@@ -73,9 +73,9 @@ def peaks_of(
     testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, rng: np.random.Generator
 ) -> Floats:
     """Return the greatest tilt (rad) and rate (rad/s) of platforms that no search has used."""
-    expected, *others = scenarios(wish.prior, TRIED + 1, rng)
-    tried = rehearsal(for_search(testbed), expected, manoeuvre, wish.params, wish.known)
-    return peaks(tried, platforms_of(others))
+    others = scenarios(wish.prior, TRIED + 1, rng)[1:]
+    stiff = for_search(testbed)
+    return peaks(stiff, course_of(stiff, manoeuvre, wish.params.fineness), platforms_of(others))
 
 
 def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:

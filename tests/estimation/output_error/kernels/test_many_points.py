@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.dynamics.propagation import propagate, rigid_body
+from equipoise.dynamics.propagation import NO_COLUMNS, propagate, rigid_body, stacked
+from equipoise.dynamics.sensitivities import Inputs
 from equipoise.estimation.information.information_matrix import ended_at
 from equipoise.estimation.output_error.kernels.many_points import information_at, peaks_at
 from equipoise.estimation.output_error.problem import posed as as_posed
@@ -43,6 +44,14 @@ def problem_and_points(manoeuvre, fineness=1.0):
     return bed, problem, (first, second, third)
 
 
+def peaks_of(bed, problem, points):
+    """Tilt and rate at most, of each point."""
+    line, maps = problem.line, stacked(problem.maps)
+    inputs = Inputs(maps, line.t, line.known, line.owners, NO_COLUMNS)
+    rows = np.array([point.flat for point in points])
+    return peaks_at(inputs, problem.mass, problem.gravity, rows, bed.up)
+
+
 def test_the_information_at_many_points_is_that_at_each():
     _, problem, points = problem_and_points(MOVED)
     together = information_at(as_posed(problem), np.array([p.flat for p in points]))
@@ -54,15 +63,14 @@ def test_the_information_at_many_points_is_that_at_each():
 def test_the_peaks_of_many_motions_are_those_of_each():
     """As the propagator has them at the nodes, or up to 1 % more, which is between these."""
     bed, problem, points = problem_and_points(MOVED)
-    together = peaks_at(as_posed(problem), np.array([p.flat for p in points]), bed.up)
-    for found, point in list(zip(together, points, strict=True))[:2]:
+    together = peaks_of(bed, problem, points)
+    for found, point in zip(together, points, strict=True):
         rigid = rigid_body(point.body(problem.mass), problem.gravity)
         motion = propagate(rigid, problem.maps, problem.line, point.q0, point.w0)
         at_nodes = [tilt(motion.q, bed.up).max(), np.linalg.norm(motion.rate, axis=1).max()]
         assert np.all(found >= np.array(at_nodes) - 1e-9)
         np.testing.assert_allclose(found, at_nodes, rtol=0.01)
-    alone = peaks_at(as_posed(problem), points[2].flat[None], bed.up)
-    np.testing.assert_array_equal(together[2], alone[0])
+        np.testing.assert_array_equal(peaks_of(bed, problem, [point])[0], found)
     assert np.abs(together[2] / together[0] - 1).max() > 1e-3
 
 
@@ -73,7 +81,7 @@ def test_the_peaks_of_a_swing_are_as_its_energy_has_them(fineness):
     The moment of inertia is 0.8 kg m^2. Low side x: the body turns about y.
     """
     bed, problem, (first, *_) = problem_and_points(SWING, fineness)
-    (found,) = peaks_at(as_posed(problem), first.flat[None], bed.up)
+    (found,) = peaks_of(bed, problem, [first])
     lift = 100e-6 * (1 - np.cos(np.radians(20.0)))
     rate = np.sqrt(2 * bed.body.mass * bed.gravity * lift / 0.8)
     np.testing.assert_allclose(found, [np.radians(20.0), rate], rtol=2e-3)

@@ -20,13 +20,8 @@ from equipoise.dynamics.rigid_body import (
     gravity_of,
     rate_of,
 )
-from equipoise.dynamics.sensitivities import Columns, Inputs, Work, work_for
-from equipoise.estimation.output_error.kernels.gauss_newton import (
-    Posed,
-    descend,
-    local_for,
-    stop_at_commands,
-)
+from equipoise.dynamics.sensitivities import Inputs, Work, work_for
+from equipoise.estimation.output_error.kernels.gauss_newton import Posed, descend, local_for
 from equipoise.estimation.parameters.retraction import W, body_at_point
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.kernels.copying import copy_values
@@ -73,18 +68,14 @@ def peak_along(
 
 
 @kernel
-def peaks_at(posed: Posed, points: Floats, up: Floats) -> Floats:
-    """Return the greatest tilt (rad) and rate (rad/s) of the motion from each point, (k, 2)."""
-    found, known, none = np.empty((points.shape[0], 2)), posed.known.copy(), posed.columns
-    columns, work, ends = (
-        Columns(none.kinds[:0], none.indices[:0]),
-        work_for(0),
-        np.empty((4, ROWS)),
-    )
-    inputs = Inputs(posed.maps, posed.t, known, posed.owners, columns)
+def peaks_at(inputs: Inputs, mass: float, gravity: float, points: Floats, up: Floats) -> Floats:
+    """Return the greatest tilt (rad) and rate (rad/s) of the motion from each point, (k, 2).
+
+    A point may end behind its torques. Masses stop where the inputs, which have no columns, say.
+    """
+    found, work, ends = np.empty((points.shape[0], 2)), work_for(0), np.empty((4, ROWS))
     for k in range(points.shape[0]):
-        stop_at_commands(posed, points[k], known)
-        body = body_at_point(points[k], posed.mass, posed.gravity)
+        body = body_at_point(points[k], mass, gravity)
         cosine, square = peak_along(body, inputs, points[k], (up[0], up[1], up[2]), ends, work)
         found[k, 0] = np.arccos(max(min(cosine, 1.0), -1.0))
         found[k, 1] = square**0.5
