@@ -1,5 +1,6 @@
 """A plan's limits: with what margin they are kept, what is in time, and where a search begins."""
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -20,8 +21,8 @@ from equipoise.planning.manoeuvre.limit_check import (
     rehearsal,
 )
 from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen, range_of
+from equipoise.planning.manoeuvre.out_of_reach import out_of_reach
 from equipoise.planning.manoeuvre.plan import (
-    BEYOND_REACH,
     REACHED,
     Trials,
     Wish,
@@ -124,48 +125,80 @@ def wish_for(testbed):
     return Wish("both", "A", Params(), stated_prior(testbed))
 
 
-def counted(pieces_tried):
-    """What tries pieces here, and counts them."""
-
-    def spread(work, pieces):
-        pieces_tried.append(len(pieces))
-        return map(work, pieces)
-
-    return spread
-
-
 def test_limits_that_no_manoeuvre_keeps_end_a_search_after_few():
     """Sputnix as it is stated, 40 um off to any side: let go for two minutes it turns over."""
     where, tried = space("sputnix", 120.0), []
+
+    def spread(work, pieces):
+        tried.extend(pieces)
+        return map(work, pieces)
+
     with pytest.raises(InputError) as caught:
-        planned(where, wish_for(where.testbed), 1, Trials(400, counted(tried)))
-    assert tried == [len(mildest(where)) + REACHED]
+        planned(where, wish_for(where.testbed), 1, Trials(400, spread))
+    assert not tried
     text = str(caught.value)
     assert text.startswith(where.testbed.name)
+    assert (
+        f"none of {len(mildest(where, where.testbed.body)) + REACHED} manoeuvres of 120 s" in text
+    )
     assert "times the tilt limit of 30 deg" in text
     assert "times the rate limit of 5 deg/s" in text
-    assert "120 s" in text
-    assert "prior record" in text
 
 
-def test_the_excess_that_is_said_is_of_the_nearest_manoeuvre():
-    """Peaks of 90 deg and 4 deg/s, then of 70.8 deg: limits 30 deg, 5 deg/s; 2.36 times is named.
-
-    An excess of 1.36 is beyond reach; 0.9 would not be.
-    """
+def test_it_is_said_which_limit_is_passed_by_how_much_and_what_may_help():
+    """70.8 deg of 30 are 2.36 times; 4 deg/s are within 5. Known to 40 um, without a record."""
     where = space("sputnix", 120.0)
-    search, numbers = search_for(where, wish_for(where.testbed), 1), mildest(where)[:2]
-    said = np.radians([[90.0, 4.0], [70.8, 4.0]])
-    with pytest.raises(InputError, match=r"comes to 2\.4 times the tilt limit of 30 deg, with"):
-        check_reach(search, lambda _work, _pieces: said, numbers)
-    assert BEYOND_REACH == 1.0
-    check_reach(search, lambda _work, _pieces: np.radians([[90.0, 4.0], [57.0, 4.0]]), numbers)
+    text = str(out_of_reach(where, np.radians([[70.8, 4.0], [20.0, 3.0]]), 28, alone=True))
+    assert "does with 1 of 2 platforms" in text
+    assert "others come to 2.4 times the tilt limit of 30 deg; wanted" in text
+    assert "prior record (the centre of mass is known to 40 um only)" in text
+    assert "rate" not in text
+    text = str(out_of_reach(where, np.radians([[29.0, 11.0], [2.0, 8.0]]), 28, alone=False))
+    assert "does with 0 of 2 platforms" in text
+    assert "come to 2.2 times the rate limit of 5 deg/s" in text
+    assert "tilt" not in text
+    assert "prior record" not in text
+    assert text.endswith("a greater limit of the rate")
+
+
+def low(com, sd=5e-6):
+    """Two minutes of sputnix with its centre of mass known to 5 um."""
+    testbed = read_preset("sputnix")
+    body = replace(testbed.body, com=np.array(com))
+    return replace(
+        space("sputnix", 120.0), testbed=replace(testbed, body=body, com_sd=np.full(3, sd))
+    )
+
+
+def test_limits_within_reach_end_no_search():
+    """80 um low it stays within 30 deg and 5 deg/s; known to 60 um, it does not."""
+    for sd, is_reached in ((5e-6, True), (60e-6, False)):
+        where = low([0.0, 0.0, -80e-6], sd)
+        search = search_for(where, wish_for(where.testbed), 1)
+        with nullcontext() if is_reached else pytest.raises(InputError):
+            check_reach(search, mildest(where, where.testbed.body))
+
+
+def test_a_platform_that_hangs_aside_is_let_go_where_it_hangs():
+    """40 um to x and 30 to y, 100 um low: it hangs 26.6 deg aside, 36.9 deg from x towards y."""
+    where = low([40e-6, 30e-6, -100e-6])
+    hangs = chosen(where, mildest(where, where.testbed.body)[4])
+    assert hangs.tilt == pytest.approx(np.arctan(0.5), abs=np.radians(0.25))
+    np.testing.assert_allclose(hangs.low_side, [0.8, 0.6, 0.0], atol=0.05)
+    search = search_for(where, wish_for(where.testbed), 1)
+    upright, resting = (
+        peaks(search.testbed, course_of(search.testbed, m, 1.0), search.guarded)
+        for m in (chosen(where, mildest(where, where.testbed.body)[0]), hangs)
+    )
+    assert np.median(upright[:, 0]) > 1.5 * np.median(resting[:, 0])
 
 
 def test_the_mildest_manoeuvres_move_least():
     """Upright, at rest; masses stay, go half the way to the lowest end of their rail, or all."""
     where = space("sputnix", 120.0)
-    stay, half, low, later = (chosen(where, numbers) for numbers in mildest(where))
+    stay, half, low, later, *_ = (
+        chosen(where, numbers) for numbers in mildest(where, where.testbed.body)
+    )
     for manoeuvre in (stay, half, low, later):
         assert manoeuvre.tilt == 0.0
         np.testing.assert_array_equal(manoeuvre.rate, np.zeros(3))
@@ -178,7 +211,7 @@ def test_the_mildest_manoeuvres_move_least():
 
 def test_masses_that_stand_somewhere_stay_there_in_the_mildest():
     where = space("sputnix", 120.0, standing={"x1": 0.020})
-    targets = chosen(where, mildest(where)[0]).moves[0][1]
+    targets = chosen(where, mildest(where, where.testbed.body)[0]).moves[0][1]
     assert targets["x1"] == pytest.approx(0.020)
     assert targets["y1"] == 0.0
 

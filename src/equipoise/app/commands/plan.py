@@ -44,7 +44,7 @@ def plan(
     Chosen are tilt and rate at the start, times and sizes of moves, and square waves for wheels and
     gyros where there are any. Limits are kept on platforms drawn from what is known, let go by a
     hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them, and at
-    once with 2 when the first manoeuvres tried, the mildest among them, are far from keeping them.
+    once with 2 when the mildest manoeuvres and the first ones tried pass them on too many.
     Predicted sd are those of a fit in the model that the testbed states.
 
     Parameters

@@ -2,8 +2,9 @@
 
 The problem of a trajectory fit is posed once, for what is expected, and evaluated at each
 platform's own truth. That is exact: measured values do not enter the information (see
-``estimation.normal_equations``). What makes it fast is exact enough for a search only: dense
-sensors are taken as means of their rows, and what hanging masses add is left out.
+``estimation.normal_equations``). Limits need the motion alone, so they are checked before a problem
+is posed. What makes it fast is exact enough for a search only: dense sensors are taken as means of
+their rows, and what hanging masses add is left out.
 """
 
 from collections.abc import Sequence
