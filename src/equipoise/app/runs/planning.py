@@ -86,15 +86,15 @@ def run(request: Request, waiting: Waiting = QUIET) -> Planning:
         best = planned(space, wish, request.seed, Trials(request.trials, waiting.spread, report))
     before = usual(testbed, request.duration, standing)
     with waiting.doing("trying it on other platforms"):
-        asked = [(before, wish), (best, wish)]
-        asked += [(best, replace(wish, known=None))] if known else []
-        first, second, *third = waiting.spread(partial(promised, request), asked)
+        variants = [(before, wish), (best, wish)]
+        variants += [(best, replace(wish, known=None))] if known else []
+        first, second, *third = waiting.spread(partial(promised, request), variants)
     return Planning(request, first, second, *(third or [second]))
 
 
-def promised(request: Request, asked: tuple[Manoeuvre, Wish]) -> Promise:
+def promised(request: Request, variant: tuple[Manoeuvre, Wish]) -> Promise:
     """Return the prediction for a manoeuvre and what is known before it."""
-    return promise(request.testbed, *asked, request.seed, request.rate)
+    return promise(request.testbed, *variant, request.seed, request.rate)
 
 
 def learnt_from(recording: Recording, request: Request, waiting: Waiting) -> RecordPrior:

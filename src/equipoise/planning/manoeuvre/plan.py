@@ -140,11 +140,11 @@ def merit(search: Search, manoeuvre: Manoeuvre) -> float:
     course = course_of(search.testbed, manoeuvre, search.wish.params.fineness)
     beyond = excess_of(search, course)
     worst = NOTHING + STIFF * beyond
-    return worst if beyond > HOPELESS else min(told(search, course) + STIFF * beyond, worst)
+    return worst if beyond > HOPELESS else min(score_of(search, course) + STIFF * beyond, worst)
 
 
-def told(search: Search, course: Course) -> float:
-    """Return the score of what a record tells of the platforms; infinite: of no use for some."""
+def score_of(search: Search, course: Course) -> float:
+    """Return the score of what a record shows of the platforms; infinite: of no use for some."""
     wish, names = search.wish, search.names
     body = wish.prior.body
     tried = rehearsal(search.testbed, body, course, wish.params, wish.known)
