@@ -9,6 +9,7 @@ from hypothesis.extra.numpy import arrays
 from equipoise.maths.linalg import (
     eigen_symmetric,
     element_sizes,
+    inverse_blocks,
     inverse_spd,
     inverse_where,
     lag_one,
@@ -120,3 +121,25 @@ def test_what_is_held_has_no_covariance():
     found = inverse_where(BY_HAND, np.array([True, False, True]))
     expected = np.array([[2.0, 0.0, -1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 4.0]]) / 7.0
     np.testing.assert_allclose(found, expected, atol=1e-15)
+
+
+def test_blocks_of_inverses_are_those_of_each_inverse():
+    """In the order that is asked for, whatever the sizes of rows."""
+    rng = np.random.default_rng(4)
+    rows = rng.standard_normal((3, 7, 5)) * [1.0, 1e4, 1e-3, 1.0, 30.0]
+    matrices = rows.transpose(0, 2, 1) @ rows
+    found = inverse_blocks(matrices, [3, 1])
+    for block, matrix in zip(found, matrices, strict=True):
+        np.testing.assert_allclose(block, inverse_spd(matrix)[np.ix_([3, 1], [3, 1])], rtol=1e-9)
+
+
+def test_the_block_of_an_inverse_by_hand():
+    """[[2, 1], [1, 1]] has the inverse [[1, -1], [-1, 2]]; all of it is a block, too."""
+    matrix = np.array([[[2.0, 1.0], [1.0, 1.0]]])
+    np.testing.assert_allclose(inverse_blocks(matrix, [1]), [[[2.0]]])
+    np.testing.assert_allclose(inverse_blocks(matrix, [0, 1]), [[[1.0, -1.0], [-1.0, 2.0]]])
+
+
+def test_no_block_of_what_is_not_positive_definite():
+    with pytest.raises(np.linalg.LinAlgError):
+        inverse_blocks(np.array([[[1.0, 2.0], [2.0, 1.0]]]), [0])

@@ -41,7 +41,7 @@ import scipy
 
 from equipoise.actuators.lags import slowness
 from equipoise.actuators.travel_times import FASTER, TimedTravel, timed
-from equipoise.model.arrays import Series1
+from equipoise.model.arrays import Bools, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
@@ -67,15 +67,33 @@ class OpenTime(NamedTuple):
 
 
 def open_times(track: Samples, i: int, mass: SlidingMass, least: float) -> Iterator[OpenTime]:
-    """Yield what changes the time integral of a first moment by more than ``least`` (kg m s)."""
+    """Yield what changes the time integral of a first moment by more than ``least`` (kg m s).
+
+    The sd of a travel's times are the largest of what it leaves open but for its path.
+    """
+    uneven = _uneven(track.t, track.values[:, i], mass.speed)
     for k, travel in enumerate(timed(track.t, track.values[:, i], mass.speed), 1):
-        by_degrees = travel.is_late or travel.is_long
-        times = (_by_degrees if by_degrees else _of_ends)(track, i, f"{mass.name}_{k}", travel)
-        yield from (each for each in times if mass.mass * travel.path * each.sd > least)
-        smooth = _smooth(track, i, f"{mass.name}_{k}", travel, mass.speed)
-        area = scipy.integrate.cumulative_trapezoid(smooth.effect, smooth.corners)
-        if mass.mass * smooth.sd * float(np.abs(area).max()) > least:
-            yield smooth
+        name, moved = f"{mass.name}_{k}", mass.mass * travel.path
+        if moved * max(travel.departure_sd, travel.arrival_sd) > least:
+            by_degrees = travel.is_late or travel.is_long
+            times = (_by_degrees if by_degrees else _of_ends)(track, i, name, travel)
+            yield from (each for each in times if moved * each.sd > least)
+        if uneven[max(travel.first - TAIL, 0) : travel.last + TAIL].any():
+            smooth = _smooth(track, i, name, travel, mass.speed)
+            area = scipy.integrate.cumulative_trapezoid(smooth.effect, smooth.corners)
+            if mass.mass * smooth.sd * float(np.abs(area).max()) > least:
+                yield smooth
+
+
+def _uneven(t: Series1, d: Series1, greatest: float) -> Bools:
+    """Say of each step whether a mass neither stands nor goes straight: without two, no bend."""
+    speeds = np.diff(d) / np.diff(t)
+    return (speeds != 0) & ~_is_straight(speeds, greatest)
+
+
+def _is_straight(speeds: Series1, greatest: float) -> Bools:
+    """Say of each step whether a mass goes as fast (m/s) as it can, at even speed."""
+    return (np.abs(speeds) > greatest / FASTER) & (np.abs(speeds) < greatest * FASTER)
 
 
 def _of_ends(track: Samples, i: int, name: str, travel: TimedTravel) -> Iterator[OpenTime]:
@@ -136,7 +154,7 @@ def bend(t: Series1, at: Series1, d: Series1, greatest: float) -> Series1:
 def end_slopes(t: Series1, d: Series1, greatest: float) -> tuple[Series1, Series1]:
     """Return by how much a smooth path is faster than each step at its begin and its end, m/s."""
     steps, speeds = np.diff(t), np.diff(d) / np.diff(t)
-    straight = (np.abs(speeds) > greatest / FASTER) & (np.abs(speeds) < greatest * FASTER)
+    straight = _is_straight(speeds, greatest)
     before, after = speeds[:-1], speeds[1:]
     slow, fast = np.sort(np.abs([before, after]), axis=0)
     alike = before * after > 0

@@ -75,6 +75,21 @@ def inverse_where(matrix: Square, free: Bools) -> Square:
     return inverse
 
 
+def inverse_blocks(matrices: Floats, own: Sequence[int]) -> Floats:
+    """Return one block of the inverse of each positive definite matrix, (k, n, n) to (k, m, m).
+
+    Of Cholesky's factor L with the own rows last, the last block F is that of L L^T with the others
+    eliminated: (F F^T)^-1 is the block. LinAlgError for a matrix that is not positive definite.
+    """
+    others = [k for k in range(matrices.shape[-1]) if k not in own]
+    order, first = [*others, *own], len(others)
+    scale = 1.0 / np.sqrt(np.diagonal(matrices, axis1=1, axis2=2)[:, order])
+    unit = matrices[:, order][:, :, order] * scale[:, :, None] * scale[:, None, :]
+    factors = np.linalg.inv(np.linalg.cholesky(unit)[:, first:, first:])
+    size = scale[:, first:]
+    return factors.transpose(0, 2, 1) @ factors * size[:, :, None] * size[:, None, :]
+
+
 def lag_one(residual: Series) -> float:
     """Return the correlation of neighbouring rows, pooled over columns; 0 for fewer than 3 rows."""
     if len(residual) < 3:

@@ -61,15 +61,17 @@ def left_at(
 
 def displacement(travel: Travel, t: float) -> Floats:
     """Return where the masses are at a time not before their last command, (4, k) m."""
-    reported, taken = (share_of(t, begin, travel.arrive) for begin in (travel.start, travel.taken))
-    share = np.array([reported, reported, taken, taken])  # reported and carriage; held and real
+    if t >= travel.arrive.max(initial=-np.inf):
+        return travel.end
+    share = share_of(t, np.array([travel.start, travel.taken]), travel.arrive)
+    share = share[[0, 0, 1, 1]]  # reported and carriage; held and real
     return (1.0 - share) * travel.begin + share * travel.end
 
 
-def share_of(t: float, start: Series1, end: Series1) -> Series1:
+def share_of(t: float, start: Floats, end: Series1) -> Floats:
     """Return how much of the time from start to end has passed, 0 to 1."""
     length = np.maximum(end - start, 1e-12)
-    return np.where(t >= end, 1.0, np.clip((t - start) / length, 0.0, 1.0))
+    return np.where(t >= end, 1.0, np.minimum(np.maximum((t - start) / length, 0.0), 1.0))
 
 
 def checked(

@@ -22,10 +22,10 @@ class Returned:
     results: dict[str, Any]
 
 
-def briefly_planned(bed):
+def briefly_planned():
     with pytest.MonkeyPatch.context() as patch:
         thorough.few_platforms(patch)
-        return eq.plan(bed, duration=8.0, trials=2, seed=2)
+        return eq.plan("reference-table", duration=8.0, trials=2, seed=2)
 
 
 @pytest.fixture(scope="session")
@@ -44,7 +44,7 @@ def returned(tmp_path_factory) -> Returned:
         "observe": eq.observe(recording, bed),
         "design": eq.design(bed, durations=[60.0]),
         "balance": eq.balance(bed, seed=1, target=(0.0, 0.0, -100.0 / 1e6), max_moves=1),
-        "plan": briefly_planned(bed),
+        "plan": briefly_planned(),
         "compare": eq.compare(bed, methods=True, only=[LINEAR], runs=1, duration=30.0),
         "methods": eq.methods(),
         "laws": eq.laws(),

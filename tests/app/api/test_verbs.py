@@ -16,7 +16,7 @@ COMMANDS = {
     "observe": "observe {file} --testbed sputnix",
     "design": "design sputnix --record-s 60",
     "balance": "balance sputnix --seed 1 --max-moves 1",
-    "plan": "plan sputnix --duration-s 8 --trials 2 --seed 2",
+    "plan": "plan reference-table --duration-s 8 --trials 2 --seed 2 --workers 1",
     "methods": "methods",
     "laws": "laws",
 }
@@ -123,7 +123,7 @@ def test_a_part_of_a_recording_stays_that_part(returned):
 
 def test_a_plan_can_be_simulated_without_a_file(returned):
     plan = returned.results["plan"].plan
-    recording = eq.simulate("sputnix", plan=plan, seed=3)
+    recording = eq.simulate("reference-table", plan=plan, seed=3)
     assert recording.span[1] == pytest.approx(plan.manoeuvre.duration, abs=0.2)  # s, one frame
 
 

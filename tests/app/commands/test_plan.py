@@ -42,3 +42,11 @@ def test_a_plan_stands_alone(tmp_path, capsys):
     (tmp_path / "plan.toml").write_text("duration_s = 9.0\n[start]\ntilt_deg = 3.0\n")
     assert run(words.replace("plan.toml", str(tmp_path / "plan.toml")).split()) == 2
     assert "the plan alone" in capsys.readouterr().err
+
+
+def test_limits_out_of_reach_are_said_at_once(capsys):
+    """What is known of sputnix lets nobody plan two minutes: which limit, how far, what helps."""
+    assert run(["plan", "sputnix"]) == 2
+    said = " ".join(capsys.readouterr().err.split())
+    assert "times the tilt limit of 30 deg" in said
+    assert "wanted a shorter record, or a short swing recorded first" in said

@@ -10,7 +10,7 @@ COMMANDS = {
     "assess": ("assess", "RECORD", "--testbed", "sputnix"),
     "calibrate": ("calibrate", "RECORD", "--testbed", "sputnix"),
     "design": ("design", "sputnix", "--record-s", "30"),
-    "plan": ("plan", "sputnix", "--trials", "2", "--moves", "1", "--duration-s", "8"),
+    "plan": ("plan", "reference-table", "--trials", "2", "--moves", "1", "--duration-s", "8"),
     "balance": ("balance", "sputnix", "--seed", "3"),
 }
 

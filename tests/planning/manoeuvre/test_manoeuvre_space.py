@@ -15,19 +15,24 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import SquareWave
 from equipoise.planning.manoeuvre.criterion import score, size_of
 from equipoise.planning.manoeuvre.limit_check import (
-    covariance_of,
+    course_of,
+    covariances_of,
     for_search,
     peaks,
     rehearsal,
-    started,
     thinned,
 )
 from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen, greatest
-from equipoise.planning.manoeuvre.plan import Trials, Wish, merit, planned, search_for
+from equipoise.planning.manoeuvre.plan import COARSE, Trials, Wish, merit, planned, search_for
 from equipoise.planning.manoeuvre.predicted_information import predicted
 from equipoise.planning.manoeuvre.predicted_sd import met
 from equipoise.planning.manoeuvre.reference_manoeuvre import usual
-from equipoise.planning.manoeuvre.scenario import Scenario, scenarios, stated_prior
+from equipoise.planning.manoeuvre.scenario import (
+    Scenario,
+    platforms_of,
+    scenarios,
+    stated_prior,
+)
 from equipoise.simulation.carried_out import met_start, simulated
 
 BODY = (*INERTIA, *COM)
@@ -104,18 +109,20 @@ def test_the_usual_manoeuvre_is_the_papers():
     assert set(home.moves[0][1].values()) == {0.0}
 
 
-def test_a_rehearsal_says_what_a_prediction_says():
+@pytest.mark.parametrize("fineness", [1.0, COARSE])
+def test_a_rehearsal_says_what_a_prediction_says(fineness):
     """Of another platform than the one it was posed for, let go off plan: sd within 1 %."""
     testbed = for_search(bed())
     m = usual(testbed, 120.0, {})
-    expected, other = scenarios(stated_prior(testbed), 2, np.random.default_rng(3))
-    tried = rehearsal(testbed, expected, m, Params())
-    truth = started(tried, other)
-    fast = np.sqrt(np.diag(covariance_of(tried, truth, None)))
+    other = scenarios(stated_prior(testbed), 2, np.random.default_rng(3))[1]
+    course = course_of(testbed, m, fineness)
+    tried = rehearsal(testbed, testbed.body, course, Params(fineness=fineness))
+    platform = platforms_of([other])
+    fast = np.sqrt(np.diag(covariances_of(tried, platform, None, BODY)[0]))
     slow = predicted(testbed, other.body, met(m, other, testbed.up), Params())
     where = [slow.names.index(name) for name in BODY]
-    np.testing.assert_allclose(fast[where], slow.sd[where], rtol=0.01)
-    assert peaks(tried, truth).tilt == pytest.approx(slow.peak_tilt, rel=0.01)
+    np.testing.assert_allclose(fast, slow.sd[where], rtol=0.01)
+    assert peaks(testbed, course, platform)[0, 0] == pytest.approx(slow.peak_tilt, rel=0.01)
 
 
 def test_a_hand_meets_the_plan_as_nearly_as_it_says():
@@ -187,11 +194,10 @@ def test_a_merit_is_of_the_mean_over_platforms():
     """Criterion A is ln of a root of a mean square: squares of two platforms are averaged."""
     testbed, where = bed(), Space(bed(), 60.0, 1, 100.0, 100.0, {})
     search = search_for(where, Wish("both", "A", Params(), stated_prior(testbed)), 1)
-    first, _, third, *_ = search.scenarios
     m = usual(testbed, 60.0, {})
     one, other, both = (
-        np.exp(2 * merit(replace(search, scenarios=drawn, guarded=search.guarded[:2]), m))
-        for drawn in ([first], [third], [first, third])
+        np.exp(2 * merit(replace(search, platforms=search.platforms.part(*drawn)), m))
+        for drawn in ((0, 1), (1, 2), (0, 2))
     )
     assert abs(other / one - 1) > 0.1
     assert both == pytest.approx((one + other) / 2, rel=1e-3)

@@ -29,7 +29,8 @@ def plan(
     """Choose a start and moves of masses so that the recording carries most information.
 
     The result has ``usual`` and ``planned``, each with its predicted sd, and ``plan``, which
-    ``simulate``, ``identify`` and ``balance`` take. The default number of trials takes minutes.
+    ``simulate``, ``identify`` and ``balance`` take. The default number of trials takes
+    about a minute.
 
     Parameters
     ----------
@@ -61,8 +62,9 @@ def plan(
     Raises
     ------
     InputError
-        For files that cannot be read, unknown names, a testbed without a sensor, and an earlier
-        recording whose estimate is not usable.
+        For files that cannot be read, unknown names, a testbed without a sensor, an earlier
+        recording whose estimate is not usable, and limits that even the mildest manoeuvres pass on
+        many platforms.
     """
     bed, requested = inputs.testbed_from(testbed), inputs.options_from(terms, hold, use_prior)
     request = Request(

@@ -80,6 +80,7 @@ class Spreading:
 
 
 ALONE = Spreading()
+IN_PAIR = Spreading(workers=2)
 
 
 @Parameter(name="*")

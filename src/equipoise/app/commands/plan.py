@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from equipoise.app.arguments.options import (
-    ALONE,
+    IN_PAIR,
     NOTHING_STATED,
     WHOLE,
     Json,
@@ -34,7 +34,7 @@ def plan(
     seeking: Seeking = NOTHING_STATED,
     trials: Whole = 2400,
     seed: Whole = 1,
-    spreading: Spreading = ALONE,
+    spreading: Spreading = IN_PAIR,
     write: Path | None = None,
     json: Json = False,
     out: Path | None = None,
@@ -43,7 +43,8 @@ def plan(
 
     Chosen are tilt and rate at the start, times and sizes of moves, and square waves for wheels and
     gyros where there are any. Limits are kept on platforms drawn from what is known, let go by a
-    hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them.
+    hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them, and at
+    once with 2 when the mildest manoeuvres and the first ones tried pass them on too many.
     Predicted sd are those of a fit in the model that the testbed states.
 
     Parameters

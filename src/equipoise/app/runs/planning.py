@@ -1,6 +1,7 @@
 """One planning: what is known, the search, and what comes of it."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from equipoise.estimation.methods.trajectory import METHOD, params_of
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.model.manoeuvre import Plan
+from equipoise.model.manoeuvre import Manoeuvre, Plan
 from equipoise.model.presentation import Shown
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -85,10 +86,15 @@ def run(request: Request, waiting: Waiting = QUIET) -> Planning:
         best = planned(space, wish, request.seed, Trials(request.trials, waiting.spread, report))
     before = usual(testbed, request.duration, standing)
     with waiting.doing("trying it on other platforms"):
-        first, second = (promise(testbed, m, wish, request.seed, rate) for m in (before, best))
-        fresh = replace(wish, known=None)
-        alone = promise(testbed, best, fresh, request.seed, rate) if known else second
-    return Planning(request, first, second, alone)
+        variants = [(before, wish), (best, wish)]
+        variants += [(best, replace(wish, known=None))] if known else []
+        first, second, *third = waiting.spread(partial(promised, request), variants)
+    return Planning(request, first, second, *(third or [second]))
+
+
+def promised(request: Request, variant: tuple[Manoeuvre, Wish]) -> Promise:
+    """Return the prediction for a manoeuvre and what is known before it."""
+    return promise(request.testbed, *variant, request.seed, request.rate)
 
 
 def learnt_from(recording: Recording, request: Request, waiting: Waiting) -> RecordPrior:

@@ -12,7 +12,10 @@ anywhere, for platforms that are not of this kind.
 
 import numpy as np
 
+from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.arrays import Floats
+from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import SlidingMass
 from equipoise.planning.manoeuvre.manoeuvre_space import LEVEL, Space, range_of
 
@@ -30,6 +33,47 @@ def first_choices(space: Space, count: int, rng: np.random.Generator) -> list[Fl
     return [
         rng.random(space.size) if k % ANYWHERE == 0 else likely(space, rng) for k in range(count)
     ]
+
+
+def mildest(space: Space, body: MassProperties) -> list[Floats]:
+    """Return choices that move a platform least: at rest, masses where they stand or low.
+
+    Upright, or tilted as it hangs if it is as expected. A platform that hangs lower comes less far
+    from the vertical; how early it should is open.
+    """
+    masses = ((0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 0.3))
+    leans = (np.zeros(2), hanging(space, body))
+    return [mild(space, lean, down, early) for lean in leans for down, early in masses]
+
+
+def hanging(space: Space, body: MassProperties) -> Floats:
+    """Return the lean (2,) at which a platform hangs, in parts of the tilt limit, 1 at most."""
+    masses, up = space.testbed.masses, space.testbed.up
+    d = np.array([space.standing.get(mass.name, 0.0) for mass in masses])
+    moment = body.first_moment + d @ mass_maps(masses).first_moment
+    level = np.array([moment @ axis for axis in axes_across(up)])
+    aside = float(np.linalg.norm(level))
+    tilt = float(np.arctan2(aside, -moment @ up))
+    return min(tilt / space.tilt_limit, 1.0) * level / max(aside, 1e-300)
+
+
+def mild(space: Space, lean: Floats, down: float, early: float) -> Floats:
+    """Return such a choice: masses go a part of their way to the lowest end, at a share of time."""
+    moves = space.moves if space.testbed.masses else 0
+    shares = [
+        (1 - down) * stand_share(space, kind[0]) + down * lowest(space, kind[0])
+        for kind in space.kinds
+    ]
+    still = np.full(3, 0.5), np.full(2 * len(space.driven), 0.5)
+    return np.concatenate(
+        [0.5 + 0.5 * lean, still[0], np.full(moves, early), np.tile(shares, moves), still[1]]
+    )
+
+
+def stand_share(space: Space, mass: SlidingMass) -> float:
+    """Return where a mass stands on its rail, from 0 to 1."""
+    (low, high), now = range_of(space, mass), space.standing.get(mass.name, 0.0)
+    return (now - low) / (high - low)
 
 
 def likely(space: Space, rng: np.random.Generator) -> Floats:

@@ -46,6 +46,11 @@ class Space:
     standing: dict[str, float]  # m, where masses stand before
 
     @property
+    def limits(self) -> Floats:
+        """Return the limits of tilt (rad) and rate (rad/s), (2,)."""
+        return np.array([self.tilt_limit, self.rate_limit])
+
+    @property
     def kinds(self) -> list[list[SlidingMass]]:
         """Return the masses that go together."""
         found: list[list[SlidingMass]] = []

@@ -109,9 +109,17 @@ def vectors_along(line: Timeline, motion: Motion, stamped: list[Stamped]) -> dic
     return found
 
 
-def imagined(testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre) -> Imagined:
-    """Return the noiseless recording of a manoeuvre by a platform with this body."""
-    reported = known_side(testbed, manoeuvre)
+def imagined(
+    testbed: Testbed,
+    body: MassProperties,
+    manoeuvre: Manoeuvre,
+    reported: Recording | None = None,
+) -> Imagined:
+    """Return the noiseless recording of a manoeuvre by a platform with this body.
+
+    ``reported``: its known side, which is the same for every body.
+    """
+    reported = reported or known_side(testbed, manoeuvre)
     camera, gyro = testbed.attitude, testbed.gyro
     t_q, t_w = (row_times(sensor, manoeuvre.duration) for sensor in (camera, gyro))
     moments = measured_at(t_q, camera), measured_at(t_w, gyro)

@@ -113,11 +113,16 @@ def informed(problem: Problem, point: Unknowns, known: Known | None) -> Fitted:
     fitted = ended_at(problem, point)
     if known is None:
         return fitted
-    normal, names = fitted.at.normal.copy(), problem.layout.names
+    normal = fitted.at.normal.copy()
+    add_known(normal, problem.layout.names, known)
+    return replace(fitted, at=replace(fitted.at, normal=normal))
+
+
+def add_known(information: Floats, names: tuple[str, ...], known: Known) -> None:
+    """Add earlier information to that on the unknowns of a layout, (n, n) or several of them."""
     here = [k for k, name in enumerate(known.names) if name in names]
     where = [names.index(known.names[k]) for k in here]
-    normal[np.ix_(where, where)] += known.information[np.ix_(here, here)]
-    return replace(fitted, at=replace(fitted.at, normal=normal))
+    information[..., *np.ix_(where, where)] += known.information[np.ix_(here, here)]
 
 
 def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicted:

@@ -23,11 +23,18 @@ from equipoise.model.estimate import BODY
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.reasons.reason import Reason, distinct
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
-from equipoise.planning.manoeuvre.limit_check import Peaks, for_search, peaks, rehearsal, started
+from equipoise.planning.manoeuvre.limit_check import course_of, for_search, peaks
+from equipoise.planning.manoeuvre.noiseless_record import imagined, known_side
 from equipoise.planning.manoeuvre.plan import Wish
-from equipoise.planning.manoeuvre.predicted_information import Predicted, predicted
-from equipoise.planning.manoeuvre.scenario import Scenario, let_go, scenarios
+from equipoise.planning.manoeuvre.predicted_information import (
+    Predicted,
+    at_truth,
+    posed,
+    prediction,
+)
+from equipoise.planning.manoeuvre.scenario import Scenario, let_go, platforms_of, scenarios
 
 PLATFORMS = 240  # chosen: of 60 the rms changed by up to a third, by the few with the largest sd
 TRIED = 300  # chosen: if all keep the limits, then 99 % of all platforms do
@@ -71,17 +78,17 @@ class Promise:
 
 def peaks_of(
     testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, rng: np.random.Generator
-) -> list[Peaks]:
-    """Return the peaks of platforms that no search has used."""
-    expected, *others = scenarios(wish.prior, TRIED + 1, rng)
-    tried = rehearsal(for_search(testbed), expected, manoeuvre, wish.params, wish.known)
-    return [peaks(tried, started(tried, scenario)) for scenario in others]
+) -> Floats:
+    """Return the greatest tilt (rad) and rate (rad/s) of platforms that no search has used."""
+    others = scenarios(wish.prior, TRIED + 1, rng)[1:]
+    stiff = for_search(testbed)
+    return peaks(stiff, course_of(stiff, manoeuvre, wish.params.fineness), platforms_of(others))
 
 
 def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:
     """Return a manoeuvre as a hand that errs begins it."""
     q0 = leaning(up, manoeuvre.low_side, manoeuvre.tilt)
-    q, rate = let_go(q0, manoeuvre, scenario, up)
+    q, rate = let_go(q0, manoeuvre, scenario.lean, scenario.push, up)
     down = -to_matrix(q)[2]
     sinks = down - (down @ up) * up
     size = float(np.linalg.norm(sinks))
@@ -93,6 +100,17 @@ def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:
     )
 
 
+def predicted_of(
+    scenario: Scenario, testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, reported: Recording
+) -> Predicted:
+    """Return the prediction for one platform; ``reported``: the manoeuvre's known side."""
+    begun = met(manoeuvre, scenario, testbed.up)
+    observed = imagined(testbed, scenario.body, begun, reported)
+    problem = posed(observed, testbed, wish.params, wish.known)
+    fitted = at_truth(problem, observed, scenario.body, begun, wish.known)
+    return prediction(fitted, observed, testbed)
+
+
 def promise(
     testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, seed: int, rate_limit: float
 ) -> Promise:
@@ -101,13 +119,11 @@ def promise(
     ``rate_limit`` in rad/s; the limit of tilt is the testbed's.
     """
     rng = np.random.default_rng(seed + FRESH)
+    reported = known_side(testbed, manoeuvre)
     drawn = scenarios(wish.prior, PLATFORMS + 1, rng)
-    said = [
-        predicted(testbed, s.body, met(manoeuvre, s, testbed.up), wish.params, wish.known)
-        for s in drawn
-    ]
+    said = [predicted_of(scenario, testbed, manoeuvre, wish, reported) for scenario in drawn]
     expected, others = said[0], said[1:]
-    tilts, rates = np.array(peaks_of(testbed, manoeuvre, wish, rng)).T
+    tilts, rates = peaks_of(testbed, manoeuvre, wish, rng).T
     return Promise(
         manoeuvre,
         BODY,

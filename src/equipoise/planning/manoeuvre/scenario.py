@@ -6,11 +6,13 @@
 The first of several is the expected one: no error anywhere.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from equipoise.estimation.parameters.fit_parameters import core_of
+from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Square, Vector3
@@ -38,13 +40,40 @@ class Scenario:
     push: Vector3  # -
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Platforms:
+    """Several scenarios as arrays, one row each."""
+
+    six: Floats  # (k, 6) inertia about the centre of mass, as ``maths.pseudo_inertia`` has it
+    com: Floats  # (k, 3) m
+    lean: Floats  # (k, 3) -
+    push: Floats  # (k, 3) -
+
+    def part(self, start: int, stop: int | None = None) -> "Platforms":
+        """Return some of them."""
+        rows = slice(start, stop)
+        return Platforms(self.six[rows], self.com[rows], self.lean[rows], self.push[rows])
+
+
+def platforms_of(several: Sequence[Scenario]) -> Platforms:
+    """Return scenarios as arrays."""
+    return Platforms(
+        np.array([pseudo_inertia.from_inertia(each.body.inertia_C) for each in several]),
+        np.array([each.body.com for each in several]),
+        np.array([each.lean for each in several]),
+        np.array([each.push for each in several]),
+    )
+
+
 def let_go(
-    q0: Quaternion, manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3
-) -> tuple[Quaternion, Vector3]:
-    """Return attitude and rate (rad/s) with which a hand lets go that aims at ``q0``."""
-    lean = manoeuvre.tilt_sd * (scenario.lean - (scenario.lean @ up) * up)
-    rate = manoeuvre.rate + manoeuvre.rate_sd * scenario.push
-    return multiply(q0, exponential(lean)), rate
+    q0: Quaternion, manoeuvre: Manoeuvre, lean: Floats, push: Floats, up: Vector3
+) -> tuple[Floats, Floats]:
+    """Return attitude and rate (rad/s) with which a hand lets go that aims at ``q0``.
+
+    ``lean`` and ``push`` are in its sd, (3,) or a row each, and so is what is returned.
+    """
+    aside = manoeuvre.tilt_sd * (lean - (lean @ up)[..., None] * up)
+    return multiply(q0, exponential(aside)), manoeuvre.rate + manoeuvre.rate_sd * push
 
 
 def stated_prior(testbed: Testbed) -> Prior:
