@@ -218,7 +218,7 @@ def test_the_last_smoothed_point_equals_the_filter_posterior():
     """On the same linear pieces, away from the optimum: means to 1e-6 sd, and covariances."""
     _, record = uneasy(1e-7, 1)
     fitted, _ = walked(record, replace(BED, inertia_sd=1e-3), 1e-7)
-    problem, at = linear_at(replace(fitted, jumps=0 * fitted.jumps))
+    problem, at = linear_at(settle(fitted.problem, fitted.point, most=1))
     last, x = smoothed_last(problem, at)
     mean, C = filtered(problem, at, fitted.problem.prior, x)
     sd = np.sqrt(np.diag(C))

@@ -273,7 +273,7 @@ def test_gradient_in_the_jumps_is_that_of_the_cost(dense):
     """Chained backwards from the local models, g_k = b_k + F^T g_(k+1), against differences."""
     full, _, _ = dense
     point, jumps = full.at(full.here)
-    pieces = settle(full.problem, point, jumps, 1).pieces
+    pieces = evaluate(full.problem, point, jumps).pieces
     g, slopes = pieces.descent[-1], []
     for k in range(len(JUMPS) - 1, -1, -1):
         free = full.cuts.free[k][full.free[k]]
@@ -327,7 +327,7 @@ def test_covariance_of_every_stretch_is_of_the_dense_inverse(optimum):
     points = [unknowns_of(p) for p in after.points]
 
     def beginnings(z):
-        there = [unknowns_of(p) for p in settle(fit.problem, *full.at(z), 1).pieces.points]
+        there = [unknowns_of(p) for p in evaluate(fit.problem, *full.at(z)).pieces.points]
         return np.array([separation(fit.problem, a, b) for a, b in zip(points, there, strict=True)])
 
     by_z = full.by_z(beginnings, full.sizes())

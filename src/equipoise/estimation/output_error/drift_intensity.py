@@ -97,7 +97,7 @@ def improbability(posed: Posed, at: Local, weight: Floats) -> float:
 def linear_at(fitted: Fitted) -> tuple[Posed, Local]:
     """Return the local models of all stretches where a fit ended."""
     at = fitted.at
-    return posed(fitted.problem), Local(fitted.point.flat, fitted.pieces, at.left_q, at.left_w,
+    return posed(fitted.problem), Local(fitted.point.flat, at.pieces, at.left_q, at.left_w,
                                         at.left_v)  # fmt: skip
 
 

@@ -29,6 +29,7 @@ class Evaluation:
     left_q: Series  # (n, 3) residuals in sd
     left_w: Series
     left_v: Series  # of sensors of vectors
+    pieces: Pieces  # the local models of all stretches, data alone
 
     @property
     def residuals(self) -> int:
@@ -46,7 +47,6 @@ class Fitted:
     converged: bool
     evaluations: int
     jumps: Floats  # (K - 1, a) in the order of the problem's
-    pieces: Pieces  # the local models of its stretches
 
 
 def settle(
@@ -67,9 +67,9 @@ def settle(
         over = ended.evaluations < turn or done >= most
         if over or not problem.budget.allows(Stage.MOTION):
             break
-    at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w, best.left_v)
+    at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w, best.left_v, best.pieces)
     return Fitted(problem, unknowns_of(best.point), at, ended.converged, done,
-                  best.pieces.jumps, best.pieces)  # fmt: skip
+                  best.pieces.jumps)  # fmt: skip
 
 
 def at_once(problem: Problem) -> int:
@@ -100,7 +100,7 @@ def cost_of(fit: Fitted) -> float:
 
 def smooth_at(fit: Fitted) -> Smoothed:
     """Return what is known of every stretch at an optimum, with the priors of the problem."""
-    return smooth(posed(fit.problem).cuts, fit.pieces, inverse_spd(fit.at.normal))
+    return smooth(posed(fit.problem).cuts, fit.at.pieces, inverse_spd(fit.at.normal))
 
 
 def freedom(fit: Fitted, after: Smoothed) -> float:
