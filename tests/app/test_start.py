@@ -9,17 +9,19 @@ import pytest
 
 SOURCES = sorted(Path(__file__).parents[2].joinpath("src").rglob("*.py"))
 SLOW = ("scipy", "numba", "matplotlib", "pyarrow", "pandas")
-COMPILING = {"compiler", "linked", "returned_in_c", "kernel_cache", "ready_kernels"}
+COMPILING = {
+    "compiler", "linked", "returned_in_c", "kernel_cache", "kept_kernels", "ready_kernels",
+}  # fmt: skip
 LOADED = """
 import sys
 from equipoise.app.cli import run
 code = run(sys.argv[1:])
-print(code, *sorted({name.partition(".")[0] for name in sys.modules}), sep="\\n")
+print(code, *sorted(sys.modules), sep="\\n")
 """
 
 
 def loaded(*words):
-    """Return the exit code of a command, and the packages that it has loaded."""
+    """Return the exit code of a command, and the modules that it has loaded."""
     program = [sys.executable, "-c", LOADED, *map(str, words)]
     ended = subprocess.run(program, capture_output=True, encoding="utf-8", check=True)
     after = ended.stdout.rpartition("\n0\n")
@@ -48,7 +50,20 @@ def test_no_module_loads_a_slow_library_at_its_head():
 @pytest.mark.parametrize("command", ["identify", "inspect", "assess"])
 def test_a_command_that_draws_nothing_loads_no_matplotlib(command, record_file, monkeypatch):
     monkeypatch.setenv("EQUIPOISE_RUNS", "")
-    code, packages = loaded(command, record_file, "--testbed", "sputnix")
+    code, modules = loaded(command, record_file, "--testbed", "sputnix")
     assert code == "0"
-    assert "numpy" in packages
-    assert "matplotlib" not in packages
+    assert "numpy" in modules
+    assert "matplotlib" not in modules
+
+
+def test_a_fit_loads_little_of_scipy_and_nothing_for_compiling(record_file, monkeypatch):
+    """Of kernels that are kept, which the first of both runs sees to."""
+    monkeypatch.setenv("EQUIPOISE_RUNS", "")
+    words = ("observe", record_file, "--testbed", "sputnix")
+    loaded(*words)
+    code, modules = loaded(*words)
+    assert code == "0"
+    assert "numba" in modules
+    packages = {"fft", "integrate", "optimize", "signal", "sparse", "stats"}
+    assert not modules & {f"scipy.{name}" for name in packages}
+    assert not modules & {"numba.np.linalg", "cffi"}

@@ -37,10 +37,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from equipoise.actuators.lags import slowness
 from equipoise.actuators.travel_times import FASTER, TimedTravel, timed
+from equipoise.maths.sampled.running_integral import by_trapezia
 from equipoise.model.arrays import Bools, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -80,7 +80,7 @@ def open_times(track: Samples, i: int, mass: SlidingMass, least: float) -> Itera
             yield from (each for each in times if moved * each.sd > least)
         if uneven[max(travel.first - TAIL, 0) : travel.last + TAIL].any():
             smooth = _smooth(track, i, name, travel, mass.speed)
-            area = scipy.integrate.cumulative_trapezoid(smooth.effect, smooth.corners)
+            area = by_trapezia(smooth.corners, smooth.effect)
             if mass.mass * smooth.sd * float(np.abs(area).max()) > least:
                 yield smooth
 

@@ -31,6 +31,7 @@ from equipoise.dynamics.sensitivities import (
     RATE,
     TURN,
     Columns,
+    Groups,
     Inputs,
     Work,
     linearise,
@@ -247,6 +248,7 @@ def _run(
 
 
 NO_COLUMNS = Columns(np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64))
+NO_GROUPS = Groups(-1, -1, False)  # of these
 
 
 def stacked(maps: MassMaps) -> Floats:

@@ -78,7 +78,7 @@ def test_no_other_process_noise_makes_the_record_more_probable():
 
 
 @pytest.mark.parametrize("times", [1e-2, 1e3])
-def test_process_noise_that_is_far_off_is_calibrated(times):
+def test_process_noise_is_calibrated_from_any_first_size(times):
     """Half of all cuts are as surprised as they should be, wherever it began."""
     found, _, fit = calibrated(model_of(5, times))
     after = smoothed(found)[1]

@@ -203,7 +203,8 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
     cuts = posed(fit.problem).cuts
     counts = np.count_nonzero(cuts.free >= 0, axis=1)
     events = np.array([jump.is_event for jump in fit.problem.jumps], dtype=bool)
-    for a, is_event in itertools.product(np.unique(counts[counts > 0]), (False, True)):
+    several = sorted(set(counts[counts > 0].tolist()))
+    for a, is_event in itertools.product(several, (False, True)):
         alike = (counts == a) & (events == is_event)
         total -= log_det(after.firm[alike, :a, :a])
         if is_event:

@@ -27,7 +27,7 @@ from equipoise.actuators.travel_times import unresolved_steps
 from equipoise.estimation.model_selection.survey import ROWS, finest_spacing
 from equipoise.estimation.output_error.problem import errors_of, quickest_swing
 from equipoise.maths.attitude import difference, exponential, multiply
-from equipoise.maths.straight_pieces import straight_pieces
+from equipoise.maths.sampled.straight_pieces import straight_pieces
 from equipoise.model.arrays import Ints
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed

@@ -29,7 +29,7 @@ from equipoise.estimation.method_contract import Options, origin_of
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.chi_square import chi_square_limit
 from equipoise.maths.linalg import inverse_spd
-from equipoise.maths.long_run import long_run_covariance, memory
+from equipoise.maths.sampled.long_run import long_run_covariance, memory
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.estimate import COM, Estimate, Parameter
 from equipoise.model.outcome import Outcome, outcome

@@ -10,6 +10,7 @@ from typing import Any
 from numba.core import registry
 
 from equipoise.maths.kernels import compile_events, kernel_cache, returned_in_c
+from equipoise.maths.kernels.kept_kernels import KeptKernels
 from equipoise.maths.kernels.kernel_lock import alone
 from equipoise.maths.kernels.linked import Linked
 
@@ -29,6 +30,13 @@ class Waiting(registry.CPUDispatcher):
     """A kernel that is loaded where another process has compiled it."""
 
     _cache: Any
+
+    def enable_caching(self) -> None:
+        """Keep what is compiled."""
+        self._cache = KeptKernels(self.py_func)
+
+    def _compilation_chain_init_hook(self) -> None:
+        """Leave extensions of the compiler to compiling, which loads them before it begins."""
 
     def compile(self, sig: Any) -> Any:
         """Return the address of its machine code."""

@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.dynamics.propagation import NO_COLUMNS, stacked
+from equipoise.dynamics.propagation import NO_COLUMNS, NO_GROUPS, stacked
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.sensitivities import Inputs
 from equipoise.dynamics.timeline import Timeline, timeline
@@ -97,7 +97,7 @@ def peaks(testbed: Testbed, course: Course, platforms: Platforms) -> Floats:
     first = begun(leaning(up, planned.low_side, planned.tilt), planned, platforms, up)
     points = np.hstack([first, np.zeros((len(first), N_TORQUES))])
     maps = stacked(mass_maps(testbed.masses))
-    inputs = Inputs(maps, line.t, line.known, line.owners, NO_COLUMNS)
+    inputs = Inputs(maps, line.t, line.known, line.owners, NO_COLUMNS, NO_GROUPS)
     return peaks_at(inputs, testbed.body.mass, testbed.gravity, points, up)
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.dynamics.propagation import NO_COLUMNS, propagate, rigid_body, stacked
+from equipoise.dynamics.propagation import NO_COLUMNS, NO_GROUPS, propagate, rigid_body, stacked
 from equipoise.dynamics.sensitivities import Inputs
 from equipoise.estimation.information.information_matrix import ended_at
 from equipoise.estimation.output_error.kernels.many_points import information_at, peaks_at
@@ -47,7 +47,7 @@ def problem_and_points(manoeuvre, fineness=1.0):
 def peaks_of(bed, problem, points):
     """Tilt and rate at most, of each point."""
     line, maps = problem.line, stacked(problem.maps)
-    inputs = Inputs(maps, line.t, line.known, line.owners, NO_COLUMNS)
+    inputs = Inputs(maps, line.t, line.known, line.owners, NO_COLUMNS, NO_GROUPS)
     rows = np.array([point.flat for point in points])
     return peaks_at(inputs, problem.mass, problem.gravity, rows, bed.up)
 

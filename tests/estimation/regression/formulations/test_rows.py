@@ -29,8 +29,8 @@ from equipoise.estimation.regression.formulations.torque import (
 from equipoise.estimation.regression.formulations.tracked import extended, tracking
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
+from equipoise.maths.sampled.tracking_differentiator import pace_for, track_twice
 from equipoise.maths.straight_lines import integral_at
-from equipoise.maths.tracking_differentiator import pace_for, track_twice
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.torque_terms import TERMS
 from tests.support.builders import (

@@ -3,6 +3,7 @@
 A command that draws nothing does not wait for it, whatever it imports of this room.
 """
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -12,8 +13,24 @@ else:
     Axes = Figure = Any
 
 
+def load() -> None:
+    """Load matplotlib; without the help of its artists, unless somebody is there to read it.
+
+    Half of the time of loading goes into it: for each kind of artist, the list of all that can be
+    set of it.
+    """
+    is_read = hasattr(sys, "ps1") or "IPython" in sys.modules
+    if is_read or "matplotlib.artist" in sys.modules:
+        return
+    from matplotlib.artist import Artist
+
+    helped: Any = Artist
+    helped._update_set_signature_and_docstring = classmethod(lambda cls: None)
+
+
 def laid_out(width: float, height: float) -> Figure:
     """Return a figure of so many inches that finds the places of its panels and texts itself."""
+    load()
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), layout="constrained")
@@ -21,6 +38,7 @@ def laid_out(width: float, height: float) -> Figure:
 
 def sheet(width: float, height: float, dpi: float | None = None) -> Figure:
     """Return a figure of so many inches on which each thing is placed where it is set."""
+    load()
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), dpi=dpi)

@@ -3,6 +3,7 @@
 import io
 from pathlib import Path
 
+from equipoise.app.figures.base.arrangement import arrange
 from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.style import styled
 from equipoise.io.files.atomic_file import write_whole
@@ -15,9 +16,11 @@ KINDS = (".png", ".svg", ".pdf")
 def rendered(figure: Figure, kind: str = "png") -> bytes:
     """Return a figure as the bytes of a file; the same figure gives the same bytes."""
     layout = figure.get_layout_engine()
-    if layout is not None:
+    if layout is not None and figure.get_suptitle():
         layout.execute(figure)
         figure.set_layout_engine(None)  # laid out anew it would be a hair different, and slow
+    elif layout is not None:
+        arrange(figure)
     undated = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]
     stream = io.BytesIO()
     figure.savefig(stream, format=kind, metadata=undated)

@@ -19,10 +19,10 @@ more than one axis.
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from equipoise.estimation.regression.formulations.columns import Columns, columns
 from equipoise.estimation.regression.formulations.rows import Posed, Rows
+from equipoise.maths.sampled.running_integral import by_parabolas
 from equipoise.model.arrays import Floats, Ints, Series1, Series3
 from equipoise.model.estimate import BODY
 
@@ -33,9 +33,7 @@ def integral(t: Series1, rate: Floats) -> Floats:
     """Return the running integral of a series along its first axis."""
     if len(t) < 3:
         return np.concatenate([[0 * rate[0]], np.cumsum(np.diff(t) * rate[:-1].T, axis=-1).T])
-    return np.asarray(
-        scipy.integrate.cumulative_simpson(rate, x=t, axis=0, initial=np.zeros_like(rate[:1]))
-    )
+    return by_parabolas(t, rate)
 
 
 def by_piece(t: Series1, rate: Floats, piece: Ints) -> Floats:

@@ -9,7 +9,7 @@ laboratory whose Z points down; here Z points up.
 
     central              (f(t + T) - f(t - T)) / 2T, the noisiest
     Savitzky and Golay   slope of a cubic through 0.51 s
-    tracking             Han's tracking differentiator: see ``maths.tracking_differentiator``
+    tracking             Han's tracking differentiator: ``maths.sampled.tracking_differentiator``
 
 Amplifies the gyro's noise. Cannot see what ``momentum`` cannot see.
 """

@@ -25,7 +25,7 @@ import numpy as np
 from equipoise.estimation.regression.formulations.momentum import body_axes
 from equipoise.estimation.regression.formulations.rows import Posed, Rows
 from equipoise.estimation.regression.formulations.torque import evenly
-from equipoise.maths.tracking_differentiator import pace_for, track, track_twice
+from equipoise.maths.sampled.tracking_differentiator import pace_for, track, track_twice
 from equipoise.model.arrays import Floats, Ints, Series, Series1
 
 PERIODS = 10  # chosen: h0 in rows, of Xu's 5 to 10; noise of w' falls with its cube

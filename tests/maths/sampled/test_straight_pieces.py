@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from equipoise.maths.straight_pieces import knots, nearest_values, straight_pieces
+from equipoise.maths.sampled.straight_pieces import knots, nearest_values, straight_pieces
 
 T = np.linspace(0.0, 10.0, 1001)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.maths.long_run import correlations, long_run_covariance, memory
+from equipoise.maths.sampled.long_run import correlations, long_run_covariance, memory
 
 WHITE = np.random.default_rng(4).standard_normal((20_000, 2))
 

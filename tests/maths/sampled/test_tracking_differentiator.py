@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.maths.tracking_differentiator import (
+from equipoise.maths.sampled.tracking_differentiator import (
     Pace,
     advance,
     begin,

@@ -1,0 +1,1 @@
+"""Functions of time that are known at rows: integrals, slopes, straight pieces, memory."""
