@@ -303,7 +303,7 @@ def test_improbability_agrees_with_the_survey():
     fitted = few()
     problem, at = linear_at(fitted)
     sd = np.array(fitted.problem.jumps[0].sd)
-    other = tuple(replace(jump, sd=tuple(3 * sd)) for jump in fitted.problem.jumps)
+    other = tuple(jump._replace(sd=tuple(3 * sd)) for jump in fitted.problem.jumps)
     again = settle(replace(fitted.problem, jumps=other), fitted.point, fitted.jumps)
     theirs = evidence(again, smooth_at(again), 0.0) - evidence(fitted, smooth_at(fitted), 0.0)
     ours = improbability_of(problem, at, 3 * sd) - improbability_of(problem, at, sd)

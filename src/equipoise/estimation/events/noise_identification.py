@@ -219,7 +219,8 @@ def likeliest(model: RecordModel) -> RecordModel:
         factors = [float(np.sqrt(np.mean(e) / 3 / share)) if len(e) else 1.0 for e in misfits(fit)]
         excess = 0.5 * np.log(np.maximum(square, 1e-9) / np.maximum(freedom, 1e-9))
         steady = np.all((np.abs(excess) < SETTLED) | (freedom < IDLE))
-        if (steady and np.all(np.abs(np.log(factors)) < SETTLED)) or not model.may(Stage.NOISE):
+        settled = np.abs(np.log(np.maximum(factors, 1e-9))) < SETTLED
+        if (steady and np.all(settled)) or not model.may(Stage.NOISE):
             break
         walk, before = stepped(model.walk, excess, before)
         walk = np.maximum(walk, LEAST * walk.max())

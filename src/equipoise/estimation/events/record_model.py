@@ -148,7 +148,8 @@ def active(model: RecordModel) -> Series1:
 def smoothed(model: RecordModel) -> tuple[Fitted, Smoothed]:
     """Return the fit with every cut in it, and what is known of every stretch."""
     fit = model.fitted
-    if not (model.wanders and jumps_of(model, model.cuts) == fit.problem.jumps):
+    here = fit.problem.recording is model.recording and fit.problem.testbed is model.testbed
+    if not (here and model.wanders and jumps_of(model, model.cuts) == fit.problem.jumps):
         fit = fitted_in(model, model.cuts, 1)
     return fit, smooth_at(fit)
 
