@@ -28,13 +28,13 @@ except ImportError:  # an extra, and the toolbox an extra of it
     sysid = None
 
 MISSING = "MuJoCo's sysid is not installed; pip install 'equipoise[peers]' would add it."
-# Of its solvers and scalings the quickest here: 24 evaluations, its own takes 38 to 69.
+# Of its solvers and scalings the quickest here: 25 evaluations; its own takes 38 to 69 steps.
 SOLVER = "scipy_parallel_fd"
 STEP = 0.01  # s, chosen: at most; MuJoCo's usual one is 2 ms
 SERVO = 100.0  # rad/s, chosen: 1 / STEP, well inside RK4's stability
-ARMATURE = 100.0  # kg, chosen: g m / (ARMATURE SERVO^2) of a mass's weight is its sag
+ARMATURE = 100.0  # kg, chosen: a mass m sags by m g / (ARMATURE SERVO^2)
 POINT = 1e-12  # kg m^2, chosen: MuJoCo demands inertia of a moving body
-FLAT = 1e-4  # kg m^2, chosen: the least second moment to start at; a flatter body cannot be compiled
+FLAT = 1e-4  # kg m^2, chosen: the least second moment at the start; no flatter body compiles
 BOUND = 3.0  # chosen: stretches by e^-6 to e^6; the default of 1/2 to 2 shuts flat bodies out
 MODEL = """
 <mujoco>
@@ -47,6 +47,7 @@ MODEL = """
     </body>
   </worldbody>
   <actuator>{servos}</actuator>
+  <sensor><framequat objtype="xbody" objname="platform"/></sensor>
 </mujoco>
 """
 BODY = """
@@ -177,7 +178,7 @@ def residual_function(problem: Problem) -> Any:
     measured = sysid.TimeSeries(problem.t - problem.t[0], problem.q_meas)
     command = _command(problem, count, step)
     first = state(unknowns_of(problem))
-    record = sysid.ModelSequences("bench", spec, "record", first, command, measured, True)
+    record = sysid.ModelSequences("bench", spec, "record", first, command, measured)
     return sysid.build_residual_fn(
         models_sequences=[record], modify_residual=residual, custom_rollout=rollout,
         resample_true=False,
