@@ -28,7 +28,7 @@ except ImportError:  # an extra, and the toolbox an extra of it
     sysid = None
 
 MISSING = "MuJoCo's sysid is not installed; pip install 'equipoise[peers]' would add it."
-# Of its solvers and scalings the quickest here: 25 evaluations; its own takes 38 to 69 steps.
+# Of its solvers and scalings the quickest here: 25 evaluations; its own takes 38 steps or 69.
 SOLVER = "scipy_parallel_fd"
 STEP = 0.01  # s, chosen: at most; MuJoCo's usual one is 2 ms
 SERVO = 100.0  # rad/s, chosen: 1 / STEP, well inside RK4's stability
