@@ -30,6 +30,9 @@ def show_fits(quick: bool) -> None:
         fit = (row.name, f"{1e3 * row.seconds:.2f}", f"{row.setup:.2f}", str(row.evaluations))
         table.add_row(*fit, times, f"{row.separation:.4f}")
     console.print(table)
+    scipy, mujoco, peer = fits.WANTED_SCIPY, fits.WANTED_MUJOCO, fits.WANTED_PEER
+    console.print(f"Wanted, times ours: SciPy {scipy:,.0f}, MuJoCo {mujoco:,.0f}, "
+                  f"the best of the others {peer:g}.")  # fmt: skip
     for text in missing:
         console.print(text, markup=False)  # extras stand in brackets, as markup does
 

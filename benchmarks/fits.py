@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks import ours, peers_casadi, peers_jax, peers_scipy
+from benchmarks import ours, peers_casadi, peers_jax, peers_mujoco, peers_scipy
 from benchmarks.problem import PeerFit, Point, Problem, make_problem, offset_of
 
-WANTED_SCIPY, WANTED_PEER = 2000.0, 10.0
+WANTED_SCIPY, WANTED_MUJOCO, WANTED_PEER = 2000.0, 5000.0, 10.0  # times ours
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +32,8 @@ def peers(problem: Problem, quick: bool) -> tuple[list[PeerFit], list[str]]:
     if not quick:
         calls.append(peers_scipy.fit(problem, "RK45", 1e-10, 1e-12))
     calls += [peers_jax.fit(problem), peers_casadi.fit(problem)]
+    if not quick:
+        calls.append(peers_mujoco.fit(problem))  # a minute
     return [fit for fit, _ in calls if fit], [text for fit, text in calls if fit is None]
 
 

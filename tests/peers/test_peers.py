@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks import peers_casadi, peers_jax, peers_scipy
+from benchmarks import peers_casadi, peers_jax, peers_mujoco, peers_scipy
 from benchmarks import problem as bench
 
 OTHERS = {"jax": peers_jax.fit, "casadi": peers_casadi.fit}
@@ -58,6 +58,56 @@ def test_the_others_reach_the_same_optimum(name, short, scipy_fit):
     assert found.seconds > 0
 
 
+needs_mujoco = pytest.mark.skipif(peers_mujoco.sysid is None, reason=peers_mujoco.MISSING)
+
+
+@needs_mujoco
+@pytest.mark.parametrize("away", [0.0, 1.0, 4.0])
+def test_mujocos_residual_is_that_of_the_problems_own_model(short, away):
+    """Masses are held by servos: attitudes agree within 1 urad, while the move turns by 30 mrad."""
+    point = bench.point_at(short.truth, away * np.resize([1.0, -1.0, -0.5], 15))  # less flat
+    turn, theta = bench.difference(short.start.q, point.q), peers_mujoco.theta_of(short, point)
+    unknown = np.concatenate([turn, point.rate, theta])
+    residual = peers_mujoco.residual_function(short)
+    found = residual(unknown, peers_mujoco.unknowns_of(short))[0][0]
+    own = bench.difference(bench.simulate(short, point, 0.1), short.q_meas).ravel()
+    np.testing.assert_allclose(found * short.sigma, own, rtol=0, atol=1e-6)
+
+
+@needs_mujoco
+def test_mujocos_unknowns_and_points_are_a_pair(short):
+    truth = short.truth
+    turn, theta = bench.difference(short.start.q, truth.q), peers_mujoco.theta_of(short, truth)
+    point = peers_mujoco.point_at(short, np.concatenate([turn, truth.rate, theta]))
+    np.testing.assert_allclose(bench.offset_of(truth, point), np.zeros(15), atol=1e-7)
+
+
+@needs_mujoco
+def test_mujocos_fit_reaches_the_same_optimum():
+    """From 2 in Mahalanobis distance; from the bench's start it takes a minute.
+
+    Seed 7: at its optimum the body without masses is a possible one, which MuJoCo demands.
+    """
+    problem = bench.make_problem(7, duration=15.0, rate=4.0, noise=np.deg2rad(0.002), spread=0.05)
+    own, _ = peers_scipy.fit(problem)
+    aside = np.linalg.cholesky(own.covariance) @ np.full(15, 0.5)
+    found, _ = peers_mujoco.fit(replace(problem, start=bench.point_at(own.point, aside)))
+    assert np.abs((found.x + aside) / own.sd).max() < 0.1
+    assert found.cost == pytest.approx(own.cost, abs=0.01)
+    np.testing.assert_allclose(found.sd, own.sd, rtol=0.01)
+    assert found.seconds > 0
+
+
+@needs_mujoco
+def test_mujoco_starts_at_a_body_that_can_be_compiled(short):
+    """Jzz of more than Jxx + Jyy belongs to no body: the start is the nearest that can be."""
+    flat = replace(short.start, inertia=np.array([0.3, 0.3, 0.7, 0.0, 0.0, 0.0]))
+    problem = replace(short, start=flat)
+    residual = peers_mujoco.residual_function(problem)
+    unknowns = peers_mujoco.unknowns_of(problem)
+    assert np.isfinite(residual(unknowns.as_vector(), unknowns)[0][0]).all()
+
+
 def test_a_batch_is_its_fits_one_by_one(short):
     other = replace(short, q_meas=bench.product(short.q_meas, bench.rotation(np.full(3, 1e-6))))
     found, sentence = peers_jax.fit_batch([short, other], repeats=1)
@@ -68,7 +118,9 @@ def test_a_batch_is_its_fits_one_by_one(short):
         assert np.abs((one.x - alone.x) / alone.sd).max() < 1e-3
 
 
-@pytest.mark.parametrize(("peer", "library"), [(peers_jax, "jax"), (peers_casadi, "ca")])
+@pytest.mark.parametrize(
+    ("peer", "library"), [(peers_jax, "jax"), (peers_casadi, "ca"), (peers_mujoco, "sysid")]
+)
 def test_a_missing_library_is_a_sentence(peer, library, short, monkeypatch):
     monkeypatch.setattr(peer, library, None)
     assert peer.fit(short) == (None, peer.MISSING)
