@@ -14,7 +14,7 @@ which is exact for parabolas. Steps are taken in pairs, so every other one looks
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Series1
+from equipoise.model.arrays import Floats, Ints, Series1
 
 
 def by_trapezia(t: Series1, y: Series1) -> Series1:
@@ -24,16 +24,28 @@ def by_trapezia(t: Series1, y: Series1) -> Series1:
 
 def by_parabolas(t: Series1, y: Floats) -> Floats:
     """Return the integral up to each of at least three rows of y (n, ...); zero at the first."""
-    h = np.diff(t).reshape(-1, *(1,) * (y.ndim - 1))
-    ahead, back = _parts(h, y), _parts(h[::-1], y[::-1])[::-1]
-    steps = np.zeros_like(y, dtype=np.float64)
-    steps[1:-1:2], steps[2::2], steps[-1] = ahead[::2], back[::2], back[-1]
+    first, weights = parabola_weights(t)
+    wide = weights.reshape(len(t), 3, *(1,) * (y.ndim - 1))
+    steps: Floats = wide[:, 0] * y[first]
+    steps += wide[:, 1] * y[first + 1] + wide[:, 2] * y[first + 2]
     return np.cumsum(steps, axis=0)
 
 
-def _parts(h: Floats, y: Floats) -> Floats:
-    """Return the integral over each step but the last, of the parabola through the next row."""
-    first, second = h[:-1], h[1:]
-    r = first / (first + second)
-    bend = r * (first / second)
-    return first / 6 * ((3 - r) * y[:-2] + (3 + bend + r) * y[1:-1] + -bend * y[2:])
+def parabola_weights(t: Series1) -> tuple[Ints, Floats]:
+    """Return by which three rows each row's step is integrated: the first (n,); weights (n, 3), s.
+
+    The step is the one that ends at the row; the first row has none.
+    """
+    h, n = np.diff(t), len(t)
+    ahead, back = _of_three(h[:-1], h[1:]), _of_three(h[1:], h[:-1])[:, ::-1]
+    first, weights = np.maximum(np.arange(n) - 2, 0), np.zeros((n, 3))
+    weights[2:] = back
+    first[1:-1:2], weights[1:-1:2] = np.arange(0, n - 2, 2), ahead[::2]
+    return first, weights
+
+
+def _of_three(h: Series1, beside: Series1) -> Floats:
+    """Return the weights of a step's near, far and next row."""
+    r = h / (h + beside)
+    bend = r * (h / beside)
+    return (h / 6)[:, None] * np.column_stack([3 - r, 3 + bend + r, -bend])
