@@ -76,7 +76,7 @@ def inverse_where(matrix: Square, free: Bools) -> Square:
 
 
 def inverse_of_each(matrices: Floats, free: Bools) -> Floats:
-    """Return ``inverse_where`` of each matrix (k, n, n), all of one pattern; nan if not positive."""
+    """Return ``inverse_where`` of each matrix (k, n, n); nan of one that is not positive."""
     some = matrices[:, free][:, :, free]
     with np.errstate(invalid="ignore", divide="ignore"):
         scale = np.diagonal(some, axis1=1, axis2=2) ** -0.5

@@ -9,7 +9,7 @@ Both terms are linear in phi_j, by weights that follow from the times alone:
 
     out_k = sum_j W_kj phi_j,      W_kj = e^T (P^T P)^-1 P_j,     P_j = [1 s s^2 s^3], s = t_j - t_k
 
-So many records with the same times take the same weights (``MANY``: a kernel writes them once).
+Records with the same times take the same weights.
 """
 
 from typing import NamedTuple
@@ -69,29 +69,37 @@ def first_of(window: Window, k: int, rows: int) -> int:
     return min(max(k - window.reach, 0), max(rows - 1 - 2 * window.reach, 0))
 
 
+@part
+def write_powers(t: Floats, k: int, first: int, window: Window, powers: Floats) -> None:
+    """Write P (count, terms) of the neighbours of sample k, in half windows."""
+    for j in range(powers.shape[0]):
+        after = (t[first + j * window.stride] - t[k]) / window.half
+        powers[j, 0] = 1.0
+        for a in range(1, powers.shape[1]):
+            powers[j, a] = powers[j, a - 1] * after
+
+
+@part
+def write_normal(powers: Floats, normal: Floats) -> None:
+    """Write P^T P and a ridge."""
+    for a in range(normal.shape[0]):
+        for b in range(normal.shape[0]):
+            normal[a, b] = RIDGE if a == b else 0.0
+            for j in range(powers.shape[0]):
+                normal[a, b] += powers[j, a] * powers[j, b]
+
+
 @kernel
 def weights_of(t: Floats, window: Window) -> Floats:
     """Return W (n, 2, count): of the constant term, and of the slope (1/s)."""
     n, terms = t.shape[0], min(DEGREE + 1, t.shape[0])
-    powers, unit, factors = (
-        np.zeros((window.count, terms)),
-        np.zeros(terms),
-        np.zeros((terms, terms)),
-    )
-    normal, right, found = np.zeros((terms, terms)), np.zeros(terms), np.zeros(terms)
+    powers, normal, factors = (np.empty((window.count, terms)), np.empty((terms, terms)),
+                               np.empty((terms, terms)))  # fmt: skip
+    unit, right, found = np.empty(terms), np.empty(terms), np.empty(terms)
     out = np.zeros((n, 2, window.count))
     for k in range(n):
-        normal[:], first = 0.0, first_of(window, k, n)
-        for j in range(window.count):
-            powers[j, 0] = 1.0
-            for a in range(1, terms):
-                after = (t[first + j * window.stride] - t[k]) / window.half
-                powers[j, a] = powers[j, a - 1] * after
-            for a in range(terms):
-                for b in range(terms):
-                    normal[a, b] += powers[j, a] * powers[j, b]
-        for a in range(terms):
-            normal[a, a] += RIDGE
+        write_powers(t, k, first_of(window, k, n), window, powers)
+        write_normal(powers, normal)
         factorise(normal, 0.0, unit, factors)
         for c in range(2):
             right[:] = 0.0

@@ -9,6 +9,7 @@ from equipoise.estimation.motion.sampled_motion import rows_around
 from equipoise.estimation.output_error.initial_guess import (
     COM_TRUST,
     CORRELATED,
+    MOMENTUM_SIZE,
     WITH_GYRO,
     WITHOUT,
     kept,
@@ -69,4 +70,5 @@ def body_of(testbed: Testbed, with_gyro: bool) -> Body:
     body, trusts = testbed.body, (WITH_GYRO, WITHOUT) if with_gyro else (WITHOUT,)
     com_sd = np.maximum(3 * testbed.com_sd, COM_TRUST)
     sizes = element_sizes(body.inertia_P)
-    return Body(core_of(body), sizes, com_sd, np.array(trusts), CORRELATED)
+    momentum = MOMENTUM_SIZE * float(sizes.max())
+    return Body(core_of(body), sizes, com_sd, momentum, np.array(trusts), CORRELATED)

@@ -24,28 +24,36 @@ def by_trapezia(t: Series1, y: Series1) -> Series1:
 
 def by_parabolas(t: Series1, y: Floats) -> Floats:
     """Return the integral up to each of at least three rows of y (n, ...); zero at the first."""
-    first, weights = parabola_weights(t)
-    wide = weights.reshape(len(t), 3, *(1,) * (y.ndim - 1))
-    steps: Floats = wide[:, 0] * y[first]
-    steps += wide[:, 1] * y[first + 1] + wide[:, 2] * y[first + 2]
+    h = np.diff(t).reshape(-1, *(1,) * (y.ndim - 1))
+    ahead, back = _parts(h, y), _parts(h[::-1], y[::-1])[::-1]
+    steps = np.zeros_like(y, dtype=np.float64)
+    steps[1:-1:2], steps[2::2], steps[-1] = ahead[::2], back[::2], back[-1]
     return np.cumsum(steps, axis=0)
 
 
 def parabola_weights(t: Series1) -> tuple[Ints, Floats]:
-    """Return by which three rows each row's step is integrated: the first (n,); weights (n, 3), s.
+    """Return by which three rows ``by_parabolas`` takes each row's step: the first (n,).
 
-    The step is the one that ends at the row; the first row has none.
+    And their weights (n, 3), s. The step is the one that ends at the row; the first row has none.
     """
     h, n = np.diff(t), len(t)
-    ahead, back = _of_three(h[:-1], h[1:]), _of_three(h[1:], h[:-1])[:, ::-1]
+    ahead, back = (scale[:, None] * np.column_stack(parts)
+                   for scale, parts in (_of_three(h), _of_three(h[::-1])))  # fmt: skip
     first, weights = np.maximum(np.arange(n) - 2, 0), np.zeros((n, 3))
-    weights[2:] = back
+    weights[2:] = back[::-1, ::-1]
     first[1:-1:2], weights[1:-1:2] = np.arange(0, n - 2, 2), ahead[::2]
     return first, weights
 
 
-def _of_three(h: Series1, beside: Series1) -> Floats:
-    """Return the weights of a step's near, far and next row."""
-    r = h / (h + beside)
-    bend = r * (h / beside)
-    return (h / 6)[:, None] * np.column_stack([3 - r, 3 + bend + r, -bend])
+def _parts(h: Floats, y: Floats) -> Floats:
+    """Return the integral over each step but the last, of the parabola through the next row."""
+    scale, (near, far, after) = _of_three(h)
+    return scale * (near * y[:-2] + far * y[1:-1] + after * y[2:])
+
+
+def _of_three(h: Floats) -> tuple[Floats, tuple[Floats, Floats, Floats]]:
+    """Return by what the rows before, behind and after each step but the last count."""
+    first, second = h[:-1], h[1:]
+    r = first / (first + second)
+    bend = r * (first / second)
+    return first / 6, (3 - r, 3 + bend + r, -bend)

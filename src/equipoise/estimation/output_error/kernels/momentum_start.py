@@ -55,6 +55,7 @@ class Body(NamedTuple):
     guess: Floats  # (9,) J and com
     sizes: Floats  # (6,) kg m^2, of the inertia's elements
     com_sd: Floats  # (3,) m
+    momentum_size: float  # N m s, natural to the first momentum
     trusts: Floats  # relative sd of the inertia, tried in turn until a body comes out possible
     correlated: float  # by how much more than rows say their errors weigh together
 
@@ -98,7 +99,7 @@ def sampled(inputs: Inputs, attitude: Floats, rate: Floats, tools: Tools) -> Non
 
 
 @part
-def laboratory(inputs: Inputs, k: int, q: Floats, w: Floats, row: Floats, push: Floats) -> None:
+def laboratory(inputs: Inputs, k: int, q: Floats, w: Floats, rows: Floats, push: Floats) -> None:
     """Write R W(w) and -R (dJ w + h) of a row, and what is integrated: R's first rows, R dmu."""
     x = to_laboratory(q, (1.0, 0.0, 0.0))
     y = to_laboratory(q, (0.0, 1.0, 0.0))
@@ -107,7 +108,7 @@ def laboratory(inputs: Inputs, k: int, q: Floats, w: Floats, row: Floats, push: 
     dh = times(six_at(inputs.bend[k], 0), (w[0], w[1], w[2]))
     known = (dh[0] + h[0], dh[1] + h[1], dh[2] + h[2])
     for c in range(3):
-        out = row[c * WIDTH : (c + 1) * WIDTH]
+        out = rows[c]
         out[0], out[1], out[2] = x[c] * w[0], y[c] * w[1], z[c] * w[2]
         out[3], out[4] = x[c] * w[1] + y[c] * w[0], x[c] * w[2] + z[c] * w[0]
         out[5] = y[c] * w[2] + z[c] * w[1]
@@ -126,38 +127,32 @@ def turned_impulse(inputs: Inputs, k: int, q: Floats) -> Triple:
     return (0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]))
 
 
+@kernel  # not a part: it makes an array
+def integrate(inputs: Inputs, tools: Tools) -> None:
+    """Add the integrals to the rows of the momentum balance."""
+    weight, g = inputs.mass * inputs.gravity, inputs.gravity
+    sums, gained = np.zeros(8), (0.0, 0.0, 0.0)
+    for k in range(1, inputs.t.shape[0]):
+        i, by = inputs.first[k], inputs.weights[k]
+        a, b, c = tools.pushes[i], tools.pushes[i + 1], tools.pushes[i + 2]
+        for j in range(sums.shape[0]):
+            sums[j] += by[0] * a[j] + by[1] * b[j] + by[2] * c[j]
+        d = turned_impulse(inputs, k, tools.q)
+        gained = (gained[0] + d[0], gained[1] + d[1], gained[2] + d[2])
+        x, y, z = tools.rows[3 * k], tools.rows[3 * k + 1], tools.rows[3 * k + 2]
+        for j in range(3):
+            x[6 + j], y[6 + j] = weight * sums[4 + j], -weight * sums[j]
+        x[KNOWN] += gained[0] - g * sums[7]
+        y[KNOWN] += gained[1] + g * sums[3]
+        z[KNOWN] += gained[2]
+
+
 @part
-def balance(inputs: Inputs, tools: Tools) -> None:
-    """Write the rows of the momentum balance, and their normal matrix."""
-    n, rows, pushes, normal = inputs.t.shape[0], tools.rows, tools.pushes, tools.normal
-    flat, weight, g = rows.reshape(3 * n * WIDTH), inputs.mass * inputs.gravity, inputs.gravity
-    sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    gained = (0.0, 0.0, 0.0)
-    for k in range(n):
-        at = 3 * k * WIDTH
-        laboratory(inputs, k, tools.q[k], tools.w[k], flat[at : at + 3 * WIDTH], pushes[k])
-    for k in range(n):
-        a, b, c = inputs.weights[k, 0], inputs.weights[k, 1], inputs.weights[k, 2]
-        i = inputs.first[k]
-        u, v, x = pushes[i], pushes[i + 1], pushes[i + 2]
-        sums = (sums[0] + a * u[0] + b * v[0] + c * x[0], sums[1] + a * u[1] + b * v[1] + c * x[1],
-                sums[2] + a * u[2] + b * v[2] + c * x[2], sums[3] + a * u[3] + b * v[3] + c * x[3],
-                sums[4] + a * u[4] + b * v[4] + c * x[4], sums[5] + a * u[5] + b * v[5] + c * x[5],
-                sums[6] + a * u[6] + b * v[6] + c * x[6], sums[7] + a * u[7] + b * v[7] + c * x[7],
-                )  # fmt: skip
-        if k > 0:
-            d = turned_impulse(inputs, k, tools.q)
-            gained = (gained[0] + d[0], gained[1] + d[1], gained[2] + d[2])
-        one, two, three = rows[3 * k], rows[3 * k + 1], rows[3 * k + 2]
-        one[6], one[7], one[8] = weight * sums[4], weight * sums[5], weight * sums[6]
-        two[6], two[7], two[8] = -weight * sums[0], -weight * sums[1], -weight * sums[2]
-        one[9], two[10], three[11] = -1.0, -1.0, -1.0
-        one[KNOWN] += gained[0] - g * sums[7]
-        two[KNOWN] += gained[1] + g * sums[3]
-        three[KNOWN] += gained[2]
+def add_squares(rows: Floats, normal: Floats) -> None:
+    """Write the normal matrix of rows."""
     normal[:] = 0.0
-    width = min(WIDTH, normal.shape[1])
-    for k in range(3 * n):
+    width = min(WIDTH, normal.shape[1])  # a count that the compiler does not know, see ``add_row``
+    for k in range(rows.shape[0]):
         row = rows[k]
         for i in range(KNOWN + 1):
             size, out = row[i], normal[i]
@@ -166,33 +161,57 @@ def balance(inputs: Inputs, tools: Tools) -> None:
 
 
 @kernel
-def solution(tools: Tools, body: Body, trust: float, best: Floats) -> None:
-    """Write J, com and first momentum (12,), the testbed's inertia known to ``trust``."""
-    spread, scale, pull = np.empty(JR), np.empty(H0), np.zeros(H0)
-    for k in range(H0):
-        spread[min(k, JR - 1)] = trust * body.sizes[k] if k < 6 else body.com_sd[min(k - 6, 2)]
-        scale[k] = spread[k] if k < JR else 0.1 * body.sizes.max()
-        pull[k] = body.guess[k] / spread[k] if k < JR else 0.0
-    normal, right = np.empty((H0, H0)), np.empty(H0)
-    for a in range(H0):
-        right[a] = scale[a] * tools.normal[a, KNOWN]
-        for b in range(H0):
-            normal[a, b] = scale[a] * scale[b] * tools.normal[a, b]
-    free = right[6:].copy()
-    for a in range(6):
+def balance(inputs: Inputs, tools: Tools) -> None:
+    """Write the rows of the momentum balance, and their normal matrix."""
+    for k in range(inputs.t.shape[0]):
+        rows = tools.rows[3 * k : 3 * k + 3]
+        laboratory(inputs, k, tools.q[k], tools.w[k], rows, tools.pushes[k])
+        for c in range(3):
+            rows[c, JR + c] = -1.0
+    integrate(inputs, tools)
+    add_squares(tools.rows, tools.normal)
+
+
+@part
+def natural_sizes(body: Body, trust: float, spread: Floats) -> None:
+    """Write the sd of the priors of J and com, and a size natural to the first momentum."""
+    for k in range(6):
+        spread[k] = trust * body.sizes[k]
+    for k in range(3):
+        spread[6 + k], spread[JR + k] = body.com_sd[k], body.momentum_size
+
+
+@kernel  # not a part: it makes arrays
+def with_inertia_held(scaled: Floats, pull: Floats, spread: Floats) -> Floats:
+    """Return J as guessed, and com and first momentum beside it (12,); ``scaled`` has b behind."""
+    free = scaled[6:H0, KNOWN].copy()
+    for a in range(H0 - 6):
         for b in range(6):
-            free[a] -= normal[6 + a, b] * pull[b]
+            free[a] -= scaled[6 + a, b] * pull[b]
     held = pull.copy()
-    held[6:] = scaled_solve(np.ascontiguousarray(normal[6:, 6:]), free, 1e-10)
+    held[6:] = scaled_solve(scaled[6:H0, 6:H0].copy(), free, 1e-10)
+    return held * spread
+
+
+@kernel
+def solution(tools: Tools, body: Body, trust: float, best: Floats) -> None:
+    """Write J, com and first momentum (12,), the testbed's inertia known to ``trust``.
+
+    What is left with the inertia as guessed decides how much the priors weigh.
+    """
+    spread, pull, scaled = np.empty(H0), np.zeros(H0), np.empty((H0, KNOWN + 1))
+    natural_sizes(body, trust, spread)
+    pull[:JR] = body.guess / spread[:JR]
     for a in range(H0):
-        held[a] *= scale[a]
-    noise = max(body.correlated * rms_left(tools.rows, held), 1e-9)
-    for a in range(H0):
-        right[a] = right[a] / (noise * noise) + pull[a]
+        scaled[a, KNOWN] = spread[a] * tools.normal[a, KNOWN]
         for b in range(H0):
-            normal[a, b] /= noise * noise
-        normal[a, a] += 1.0 if a < JR else 0.0
-    best[:] = scale * scaled_solve(normal, right, 0.0)
+            scaled[a, b] = spread[a] * spread[b] * tools.normal[a, b]
+    left = rms_left(tools.rows, with_inertia_held(scaled, pull, spread))
+    noise = max(body.correlated * left, 1e-9)
+    normal = scaled[:, :H0] / noise**2
+    for a in range(JR):
+        normal[a, a] += 1.0
+    best[:] = spread * scaled_solve(normal, scaled[:, KNOWN] / noise**2 + pull, 0.0)
 
 
 @part
