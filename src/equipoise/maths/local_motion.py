@@ -31,28 +31,23 @@ SMALL = 0.02  # square of the tangent of half a turn, 0.28 rad: the series is th
 
 
 class Window(NamedTuple):
-    """Which neighbours a sample has: of ``count`` rows, ``stride`` apart, and how far they are."""
+    """Which neighbours a sample has."""
 
     reach: int  # rows to either side
-    stride: int
-    count: int
+    stride: int  # rows from one neighbour to the next
+    neighbours: int
     half: float  # s
 
 
-@part
-def half_of(speed: float, period: float) -> float:
-    """Return half the window (s) that suits a median speed (rad/s) and rows so far apart (s)."""
-    return max(min(TURN / (speed + 1e-9), LONGEST), 2.5 * period)
-
-
 @kernel
-def median_speed(t: Floats, q: Floats) -> float:
-    """Return the median speed (rad/s) from one attitude (n, 4) to the next."""
+def suitable_half(t: Floats, q: Floats, period: float) -> float:
+    """Return half the window (s) that suits a motion (n, 4), by its median speed; s a row."""
     speeds = np.empty(t.shape[0] - 1)
     for k in range(speeds.shape[0]):
         x, y, z = turn(q[k], q[k + 1])
         speeds[k] = (x * x + y * y + z * z) ** 0.5 / (t[k + 1] - t[k])
-    return float(np.median(speeds))
+    fastest = float(np.median(speeds)) + 1e-9
+    return max(min(TURN / fastest, LONGEST), 2.5 * period)
 
 
 @part
@@ -71,7 +66,7 @@ def first_of(window: Window, k: int, rows: int) -> int:
 
 @part
 def write_powers(t: Floats, k: int, first: int, window: Window, powers: Floats) -> None:
-    """Write P (count, terms) of the neighbours of sample k, in half windows."""
+    """Write P (m, terms) of the neighbours of sample k, in half windows."""
     for j in range(powers.shape[0]):
         after = (t[first + j * window.stride] - t[k]) / window.half
         powers[j, 0] = 1.0
@@ -91,12 +86,12 @@ def write_normal(powers: Floats, normal: Floats) -> None:
 
 @kernel
 def weights_of(t: Floats, window: Window) -> Floats:
-    """Return W (n, 2, count): of the constant term, and of the slope (1/s)."""
+    """Return W (n, 2, m) of m neighbours: of the constant term, and of the slope (1/s)."""
     n, terms = t.shape[0], min(DEGREE + 1, t.shape[0])
-    powers, normal, factors = (np.empty((window.count, terms)), np.empty((terms, terms)),
+    powers, normal, factors = (np.empty((window.neighbours, terms)), np.empty((terms, terms)),
                                np.empty((terms, terms)))  # fmt: skip
     unit, right, found = np.empty(terms), np.empty(terms), np.empty(terms)
-    out = np.zeros((n, 2, window.count))
+    out = np.zeros((n, 2, window.neighbours))
     for k in range(n):
         write_powers(t, k, first_of(window, k, n), window, powers)
         write_normal(powers, normal)
@@ -105,7 +100,7 @@ def weights_of(t: Floats, window: Window) -> Floats:
             right[:] = 0.0
             right[c] = 1.0 if c == 0 else 1.0 / window.half
             solve(unit, factors, right, found)
-            for j in range(window.count):
+            for j in range(window.neighbours):
                 for a in range(terms):
                     out[k, c, j] += found[a] * powers[j, a]
     return out
@@ -179,8 +174,7 @@ def _fit(t: Floats, q: Floats, half: float, period: float, out: Floats) -> None:
 
 def half_window(t: Series1, q: Series4) -> float:
     """Return half the window (s) that suits the motion."""
-    speed = median_speed(t, np.ascontiguousarray(q))
-    return float(half_of.py_func(speed, float(np.median(np.diff(t)))))
+    return suitable_half(t, np.ascontiguousarray(q), float(np.median(np.diff(t))))
 
 
 def local_motion(t: Series1, q: Series4, half: float) -> tuple[Series4, Series3]:

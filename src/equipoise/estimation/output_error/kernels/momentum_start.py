@@ -17,8 +17,7 @@ from equipoise.estimation.parameters.retraction import away, plus, six_at
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.local_motion import (
     Window,
-    half_of,
-    median_speed,
+    suitable_half,
     weigh,
     weights_of,
     window_of,
@@ -251,7 +250,7 @@ def start_each(
     tools, weights, found = tools_for(n, rates.shape[1]), np.zeros((n, 2, 1)), np.empty(H0)
     for k in range(attitudes.shape[0]):
         q = attitudes[k]
-        suits = half_of(median_speed(inputs.t, q), inputs.period)
+        suits = suitable_half(inputs.t, q, inputs.period)
         if suits != half:
             half, window = suits, window_of(suits, inputs.period, n)
             weights = weights_of(inputs.t, window)
