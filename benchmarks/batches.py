@@ -14,14 +14,14 @@ from benchmarks.others import noisy_copies
 from benchmarks.problem import make_problem
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.kernels.many_records import settle_each
-from equipoise.estimation.output_error.many_fits import (
+from equipoise.estimation.output_error.monte_carlo.many_fits import (
     ManyFits,
     blind_of,
     fit_each,
     room_for,
     stacked_rows,
 )
-from equipoise.estimation.output_error.many_starts import first_points
+from equipoise.estimation.output_error.monte_carlo.many_starts import first_points
 from equipoise.estimation.output_error.problem import posed
 from equipoise.model.recording import Recording
 

@@ -117,7 +117,7 @@ def weigh_small(
     """
     a, b, c, d = parts[0, k], parts[1, k], parts[2, k], parts[3, k]
     p, q, r, s = parts[0, first:], parts[1, first:], parts[2, first:], parts[3, first:]
-    still, slope, far = weights[0], weights[1], 0.0
+    still, slope, large = weights[0], weights[1], 0.0
     x0, y0, z0, x1, y1, z1 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(still.shape[0]):
         i = j * stride
@@ -126,7 +126,7 @@ def weigh_small(
         y = inverse * (a * r[i] + b * s[i] - c * p[i] - d * q[i])
         z = inverse * (a * s[i] - b * r[i] + c * q[i] - d * p[i])
         u = x * x + y * y + z * z
-        far += 0.0 if u < SMALL else 1.0
+        large += 0.0 if u < SMALL else 1.0
         by = 1 / 13 + u * (-1 / 15 + u * (1 / 17))
         by = 1 / 7 + u * (-1 / 9 + u * (1 / 11 - u * by))
         by = 2.0 - 2.0 * u * (1 / 3 + u * (-1 / 5 + u * by))
@@ -135,7 +135,7 @@ def weigh_small(
         x1, y1, z1 = x1 + other * x, y1 + other * y, z1 + other * z
     out[0, 0], out[0, 1], out[0, 2] = x0, y0, z0
     out[1, 0], out[1, 1], out[1, 2] = x1, y1, z1
-    return far == 0.0
+    return large == 0.0
 
 
 @part

@@ -47,8 +47,8 @@ def parabola_weights(t: Series1) -> tuple[Ints, Floats]:
 
 def _parts(h: Floats, y: Floats) -> Floats:
     """Return the integral over each step but the last, of the parabola through the next row."""
-    scale, (near, far, after) = _of_three(h)
-    return scale * (near * y[:-2] + far * y[1:-1] + after * y[2:])
+    scale, (before, behind, after) = _of_three(h)
+    return scale * (before * y[:-2] + behind * y[1:-1] + after * y[2:])
 
 
 def _of_three(h: Floats) -> tuple[Floats, tuple[Floats, Floats, Floats]]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from equipoise.estimation.output_error.growing_horizon import misfit
 from equipoise.estimation.output_error.kernels.many_records import settle_each
-from equipoise.estimation.output_error.many_fits import blind_of, room_for
+from equipoise.estimation.output_error.monte_carlo.many_fits import blind_of, room_for
 from equipoise.estimation.output_error.problem import posed as as_posed
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
@@ -24,8 +24,8 @@ def settled(near, most=300):
     orders = [both, both[::-1], both]
     points = np.array([[each.flat for each in order] for order in orders])
     out = room_for(problems[0], len(RECORDS))
-    seen = [np.array([getattr(r, name).values for r in RECORDS]) for name in ("attitude", "rate")]
-    settle_each(as_posed(problems[0]), blind_of(problems[0]), *seen, points, near, most, out)
+    rows = [np.array([getattr(r, name).values for r in RECORDS]) for name in ("attitude", "rate")]
+    settle_each(as_posed(problems[0]), blind_of(problems[0]), *rows, points, near, most, out)
     nearer = [min(both, key=lambda one, own=own: misfit(own, one)) for own in problems]
     assert all(one is both[0] for one in nearer)
     return out, [settle(own, one, most=most) for own, one in zip(problems, nearer, strict=True)]
@@ -46,7 +46,7 @@ def test_too_few_evaluations_are_not_called_converged():
     assert out.evaluations.tolist() == [2, 2, 2]
 
 
-def test_none_is_begun_too_far_off():
+def test_none_is_begun_that_is_lost():
     out, _ = settled(near=1e-6)
     assert np.isinf(out.cost).all()
     assert not out.evaluations.any()

@@ -83,11 +83,11 @@ def points_at(bodies: Floats, motions: Floats, mass: float, ahead: float, size: 
 def observing(posed: Posed, attitude: Floats, rate: Floats) -> Posed:
     """Return the problem with other measurements at the same times."""
     o = posed.observed
-    seen = Measurements(attitude, o.attitude_node, o.attitude_share, o.attitude_sd,
+    own = Measurements(attitude, o.attitude_node, o.attitude_share, o.attitude_sd,
                         o.attitude_spread, rate, o.rate_node, o.rate_share, o.rate_sd,
                         o.rate_spread, o.forward, o.terms, o.vectors)  # fmt: skip
     return Posed(posed.mass, posed.gravity, posed.maps, posed.t, posed.known, posed.owners,
-                 posed.columns, seen, posed.limit, posed.mean, posed.weight, posed.held,
+                 posed.columns, own, posed.limit, posed.mean, posed.weight, posed.held,
                  posed.slots, posed.cuts, posed.parts)  # fmt: skip
 
 
@@ -111,11 +111,11 @@ def misfit_at(
     ``work`` and ``left`` are worked in.
     """
     o, inputs = blind.observed, blind.inputs
-    seen = Measurements(attitude, o.attitude_node, o.attitude_share, o.attitude_sd,
+    own = Measurements(attitude, o.attitude_node, o.attitude_share, o.attitude_sd,
                         o.attitude_spread, o.rate, o.rate_node, o.rate_share, o.rate_sd,
                         o.rate_spread, o.forward, o.terms, o.vectors)  # fmt: skip
     body, nodes = body_at_point(point, mass, gravity), (0, inputs.t.shape[0] - 1)
-    accumulate(body, inputs, point[:W], point[W : W + 3], point[SENSOR:ERROR], point[-3:], seen,
+    accumulate(body, inputs, point[:W], point[W : W + 3], point[SENSOR:ERROR], point[-3:], own,
                0.0, nodes, (0, 0, 0), work, left, left, left)  # fmt: skip
     return rms_of(left, o.attitude_sd)
 

@@ -25,7 +25,7 @@ from equipoise.estimation.motion.observed_vectors import observed
 from equipoise.estimation.output_error.fixed_parameters import fixed
 from equipoise.estimation.output_error.growing_horizon import CAPTURE
 from equipoise.estimation.output_error.kernels.many_records import Blind, Descents, settle_each
-from equipoise.estimation.output_error.many_starts import first_points
+from equipoise.estimation.output_error.monte_carlo.many_starts import first_points
 from equipoise.estimation.output_error.problem import (
     Problem,
     counted_by_timing,

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from equipoise.estimation.output_error.many_fits import ManyFits, fit_each
+from equipoise.estimation.output_error.monte_carlo.many_fits import ManyFits, fit_each
 from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.parameters.fit_parameters import physical
 from equipoise.maths.attitude import exponential, logarithm, multiply

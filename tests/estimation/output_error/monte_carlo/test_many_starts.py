@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.output_error.initial_guess import as_measured, start
-from equipoise.estimation.output_error.many_starts import first_points
+from equipoise.estimation.output_error.monte_carlo.many_starts import first_points
 from equipoise.estimation.output_error.trajectory import Params, held_names, problem_of
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Samples
@@ -59,6 +59,6 @@ def test_they_are_those_of_each_alone(bed, gyro, moved):
     points = first_points(problem, attitudes, np.array(rates), hold)
     for k, record in enumerate(found):
         alone = start(record, bed, problem.layout, first, hold)
-        seen = as_measured(record, bed, first, alone)
+        measured = as_measured(record, bed, first, alone)
         np.testing.assert_allclose(points[k, 0], alone.flat, rtol=1e-9, atol=1e-12)
-        np.testing.assert_allclose(points[k, 1], seen.flat, rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(points[k, 1], measured.flat, rtol=1e-9, atol=1e-12)
