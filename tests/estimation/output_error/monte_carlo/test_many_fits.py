@@ -14,10 +14,16 @@ from equipoise.maths.linalg import inverse_where
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.recording import Recording, Samples
+from equipoise.model.sensor_terms import GROUPS
 from equipoise.model.testbed import Testbed
 from tests.support.builders import COM, guessed_wrong, level, move_at, noisy, platform, recording
 
 LENGTH = 30.0  # s
+SOUGHT = tuple(
+    term
+    for name in ("plumb", "heading2", "heading3", "camera_delay", "gyro_scale")
+    for term in GROUPS[name]
+)
 DRIVEN = Samples(np.array([0.0, 9.0, 12.0, LENGTH]), np.array([[0.0, 0, 0], [3e-4, 0, -2e-4]] * 2))
 
 
@@ -58,7 +64,7 @@ def assert_as_alone(
         (guessed_wrong(platform(2e-4)), 0.0, True, Params()),
         (guessed_wrong(platform(2e-4, gyro=True)), 20.0, True, Params(use_prior=True)),
         (platform(gyro=True), 20.0, False, Params()),
-        (level(platform(gyro=True)), 20.0, True, Params(robust=True, sensor=("plumb_x",))),
+        (level(platform(gyro=True)), 20.0, True, Params(robust=True, sensor=SOUGHT)),
     ],
 )
 def test_each_is_as_alone(bed, gyro, moved, params):

@@ -80,12 +80,17 @@ def points_at(bodies: Floats, motions: Floats, mass: float, ahead: float, size: 
 
 
 @kernel
-def observing(posed: Posed, attitude: Floats, rate: Floats) -> Posed:
-    """Return the problem with other measurements at the same times."""
-    o = posed.observed
-    own = Measurements(attitude, o.attitude_node, o.attitude_share, o.attitude_sd,
+def measured(o: Measurements, attitude: Floats, rate: Floats) -> Measurements:
+    """Return other measurements at the same times."""
+    return Measurements(attitude, o.attitude_node, o.attitude_share, o.attitude_sd,
                         o.attitude_spread, rate, o.rate_node, o.rate_share, o.rate_sd,
                         o.rate_spread, o.forward, o.terms, o.vectors)  # fmt: skip
+
+
+@kernel
+def observing(posed: Posed, attitude: Floats, rate: Floats) -> Posed:
+    """Return the problem with other measurements at the same times."""
+    own = measured(posed.observed, attitude, rate)
     return Posed(posed.mass, posed.gravity, posed.maps, posed.t, posed.known, posed.owners,
                  posed.columns, own, posed.limit, posed.mean, posed.weight, posed.held,
                  posed.slots, posed.cuts, posed.parts)  # fmt: skip
@@ -110,14 +115,11 @@ def misfit_at(
 
     ``work`` and ``left`` are worked in.
     """
-    o, inputs = blind.observed, blind.inputs
-    own = Measurements(attitude, o.attitude_node, o.attitude_share, o.attitude_sd,
-                        o.attitude_spread, o.rate, o.rate_node, o.rate_share, o.rate_sd,
-                        o.rate_spread, o.forward, o.terms, o.vectors)  # fmt: skip
+    inputs, own = blind.inputs, measured(blind.observed, attitude, blind.observed.rate)
     body, nodes = body_at_point(point, mass, gravity), (0, inputs.t.shape[0] - 1)
     accumulate(body, inputs, point[:W], point[W : W + 3], point[SENSOR:ERROR], point[-3:], own,
                0.0, nodes, (0, 0, 0), work, left, left, left)  # fmt: skip
-    return rms_of(left, o.attitude_sd)
+    return rms_of(left, own.attitude_sd)
 
 
 @kernel

@@ -153,11 +153,14 @@ def has_same_steps(problem: Problem, attitudes: Floats, rates: Floats, params: P
 
 
 def blind_of(problem: Problem) -> Blind:
-    """Return the problem without unknowns and without a gyro: what the misfit of a point takes."""
+    """Return the problem without unknowns and gyro: what the misfit of a first point takes.
+
+    Errors of masses and of the camera are zero there.
+    """
     line, none = problem.line, np.zeros(0, dtype=np.int64)
     inputs = Inputs(stacked(problem.maps), line.t, line.known, line.owners, NO_COLUMNS, NO_GROUPS)
     camera = problem.observed._replace(
-        rate=np.zeros((0, 3)), rate_node=none, rate_share=np.zeros(0)
+        rate=np.zeros((0, 3)), rate_node=none, rate_share=np.zeros(0), terms=none
     )
     return Blind(inputs, camera)
 
