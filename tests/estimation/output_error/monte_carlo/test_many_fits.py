@@ -1,5 +1,6 @@
 """Many records at once: each as fitted alone, and true to its covariance."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import cache
 
@@ -92,6 +93,15 @@ def test_what_a_compiled_start_does_not_do_is_done_alone(params):
     assert_as_alone(found, records, platform(), params)
 
 
+def test_records_whose_own_speed_decides_the_step_are_fitted_alone():
+    """At 80 Hz the noise of a camera looks like 0.6 rad/s, each record like another one."""
+    dense = recording(LENGTH, move_at(12.0, LENGTH), camera=80.0)
+    records = [noisy(dense, seed) for seed in range(3)]
+    found = fit_each(records, platform())
+    assert found.alone.tolist() == [False, True, True]
+    assert_as_alone(found, records, platform(), Params())
+
+
 def test_a_record_that_is_lost_is_fitted_alone_and_no_other():
     """Somebody turned the camera by 20 deg half-way."""
     records, bed = drawn(3), platform()
@@ -110,6 +120,17 @@ def test_the_covariance_is_true():
     sd = np.sqrt(np.diagonal(found.covariance, axis1=1, axis2=2))[:, com]
     square = np.mean(((found.values[:, com] - COM) / sd) ** 2)
     assert square == pytest.approx(1.0, abs=3 * np.sqrt(2 / sd.size))
+
+
+def test_chunks_abreast_are_what_all_at_once_are():
+    """Two threads, whose kernels run at the same time."""
+    records, bed = drawn(8, 20.0), platform(2e-4, gyro=True)
+    whole = fit_each(records, bed)
+    with ThreadPoolExecutor(2) as pool:
+        halves = list(pool.map(lambda chunk: fit_each(chunk, bed), [records[:4], records[4:]]))
+    for name in ("values", "covariance", "cost", "evaluations"):
+        parts = np.concatenate([getattr(half, name) for half in halves])
+        np.testing.assert_array_equal(parts, getattr(whole, name))
 
 
 @pytest.mark.parametrize("channel", ["attitude", "masses"])
