@@ -4,9 +4,10 @@ Each ends where ``trajectory.fit`` of that record alone ends. What is the same i
 once; starts and descents are two compiled calls, which run without the interpreter's lock. So
 chunks of records in threads or processes use all cores.
 
-A record is fitted alone where a compiled start does not do: one that is lost by more than a growing
-horizon mends, a fit that does not explain its record, values held, torques, jumps, sensors of
-vectors, a gyro without a camera, and a motion so fast that it decides the step of integration.
+A record is fitted alone where a compiled start does not do: a first point from which only a growing
+horizon leads on, a fit that does not explain its record, values held, torques, jumps, sensors of
+vectors, a gyro without a camera, a budget, and rows so quick or noisy that each record's own decide
+the step of integration.
 
 The covariance is A^-1, A being the information of all rows with the stated noise and of all priors,
 anchors included. Not counted: a residual larger or less white than noise, inputs that are carried
