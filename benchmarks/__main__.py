@@ -12,7 +12,7 @@ import sys
 from rich.console import Console
 from rich.table import Table
 
-from benchmarks import commands, doors, fits, limit, others, steps
+from benchmarks import batches, commands, doors, fits, limit, others, steps
 
 CUT = 2.0  # s between cuts, chosen: a short record then has a few, a long one thousands
 console = Console(width=110)
@@ -76,6 +76,23 @@ def show_others() -> None:
                       f"({1e3 / together:.2f} ms a fit).")  # fmt: skip
 
 
+def show_batches() -> None:
+    """Print fits a second of many records in one call, and where their time goes."""
+    batch = batches.table()
+    console.print(
+        f"{batches.RECORDS} fits from no start, in one call: {batch.together:.0f} a second of one "
+        f"core, {batch.together / batch.alone:.1f} times the {batch.alone:.0f} one by one; "
+        f"{batch.on_two:.0f} by the clock on two, {batch.of_each:.0f} for each second of a core "
+        f"(wanted: at least {batches.WANTED:.0f} on two cores)."
+    )
+    table = Table(title="Where the time of such a fit goes")
+    for title in ("what", "ms"):
+        table.add_column(title, justify="left" if title == "what" else "right")
+    for what, spent in batch.shares.items():
+        table.add_row(what, f"{spent:.3f}")
+    console.print(table)
+
+
 def show_limit() -> None:
     """Print how near the kernels are to what a core can do."""
     peak, shares = limit.table()
@@ -119,6 +136,7 @@ if __name__ == "__main__":
     show_fits("--quick" in sys.argv)
     show_steps()
     show_others()
+    show_batches()
     show_limit()
     show_doors()
     show_commands()

@@ -10,6 +10,7 @@ from equipoise.maths.linalg import (
     eigen_symmetric,
     element_sizes,
     inverse_blocks,
+    inverse_of_each,
     inverse_spd,
     inverse_where,
     lag_one,
@@ -121,6 +122,15 @@ def test_what_is_held_has_no_covariance():
     found = inverse_where(BY_HAND, np.array([True, False, True]))
     expected = np.array([[2.0, 0.0, -1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 4.0]]) / 7.0
     np.testing.assert_allclose(found, expected, atol=1e-15)
+
+
+def test_inverses_of_many_are_those_of_each():
+    """One that is not positive has none; it does not stop the others."""
+    free = np.array([True, False, True])
+    found = inverse_of_each(np.array([BY_HAND, -BY_HAND, 2 * BY_HAND]), free)
+    np.testing.assert_allclose(found[0], inverse_where(BY_HAND, free), atol=1e-15)
+    np.testing.assert_allclose(found[2], inverse_where(2 * BY_HAND, free), atol=1e-15)
+    assert np.isnan(found[1][np.ix_(free, free)]).all()
 
 
 def test_blocks_of_inverses_are_those_of_each_inverse():

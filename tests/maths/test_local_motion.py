@@ -126,3 +126,20 @@ def test_window_suits_the_motion(speed, expected):
     """As long as swings allow, shorter when fast, never fewer than five rows."""
     t = times(False)
     assert half_window(t, about_one_axis(speed * t)) == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("speed", [0.05, 0.11, 0.9])
+def test_it_is_the_least_squares_polynomial_of_the_rotation_vectors(speed):
+    """By NumPy, of slow motions, of fast ones, and of one whose windows are of both kinds."""
+    t, rng = times(uneven=True), np.random.default_rng(4)
+    q = multiply(about_one_axis(speed * t), exponential(rng.normal(0.0, 1e-2, (len(t), 3))))
+    half = 2.5
+    reach = int(np.ceil(half / np.median(np.diff(t))))
+    smooth, w = local_motion(t, q, half)
+    for k in (0, 3, 50, 119):
+        first = min(max(k - reach, 0), len(t) - 1 - 2 * reach)
+        rows = np.arange(first, first + 2 * reach + 1)
+        powers = np.vander(t[rows] - t[k], DEGREE + 1, increasing=True)
+        still, slope = np.linalg.lstsq(powers, difference(q[rows], q[k]), rcond=None)[0][:2]
+        np.testing.assert_allclose(w[k], slope, atol=1e-8)
+        np.testing.assert_allclose(difference(smooth[k], q[k]), still, atol=1e-8)

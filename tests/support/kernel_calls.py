@@ -15,6 +15,8 @@ import numpy as np
 from equipoise.control.elements.momentum_balance import torques_at
 from equipoise.dynamics.sensitivities import work_for
 from equipoise.estimation.output_error.kernels.gauss_newton import descend, local_for
+from equipoise.estimation.output_error.kernels.many_records import observing, points_at
+from equipoise.estimation.output_error.kernels.momentum_start import tools_for
 from equipoise.estimation.output_error.kernels.normal_equations import pass_for
 from equipoise.estimation.output_error.kernels.segments import chain_for, pieces_for
 from equipoise.estimation.output_error.solution import posed
@@ -22,6 +24,7 @@ from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
 from equipoise.estimation.parameters.retraction import coordinates, step_work_for
 from equipoise.estimation.tracker.kernel_records import new_tools
 from equipoise.maths.levenberg_marquardt import FIRST, GROWTH
+from equipoise.maths.local_motion import Window, weights_of
 from equipoise.maths.pseudo_inertia import from_inertia, slope_of_inertia, to_inertia
 from equipoise.maths.scaled_solve import scaled_solve
 from tests.support.builders import move_at, noisy, platform, recording
@@ -37,9 +40,14 @@ def calls() -> dict[str, Callable[[], object]]:
     what, point = posed(problem), fit(record, bed, Params()).point.flat
     best, n = local_for(what, point), problem.layout.size
     normal, descent, six = np.empty((n, n)), np.empty(n), np.full(6, 0.1)
+    times, window = np.arange(9.0), Window(2, 1, 5, 2.5)
     return {
         "descend": lambda: descend(what, best, 3, normal, descent, FIRST, GROWTH),
         "local_for": lambda: local_for(what, point),
+        "observing": lambda: observing(what, what.observed.attitude, what.observed.rate),
+        "points_at": lambda: points_at(np.eye(9), np.ones((9, 10)), 1.0, 0.1, len(point)),
+        "tools_for": lambda: tools_for(5, 5),
+        "weights_of": lambda: weights_of(times, window),
         "chain_for": lambda: chain_for(what.cuts, n),
         "pieces_for": lambda: pieces_for(what.cuts, n, len(point)),
         "pass_for": lambda: pass_for(3, n),

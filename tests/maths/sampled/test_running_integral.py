@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy
 
-from equipoise.maths.sampled.running_integral import by_parabolas, by_trapezia
+from equipoise.maths.sampled.running_integral import by_parabolas, by_trapezia, parabola_weights
 
 UNEVEN = np.array([0.0, 0.5, 2.0, 2.25, 4.0, 4.5])
 
@@ -30,3 +30,12 @@ def test_they_are_as_in_scipy(rows):
     assert np.array_equal(by_parabolas(t, y), simpson)
     trapezia = scipy.integrate.cumulative_trapezoid(y[:, 0, 0], t)
     assert np.array_equal(by_trapezia(t, y[:, 0, 0]), trapezia)
+
+
+@pytest.mark.parametrize("rows", [3, 4, 101, 102])
+def test_weights_of_rows_give_the_same(rows):
+    rng = np.random.default_rng(2)
+    t, y = np.cumsum(rng.random(rows) + 0.1), rng.standard_normal(rows)
+    first, weights = parabola_weights(t)
+    steps = np.sum(weights * y[first[:, None] + np.arange(3)], axis=1)
+    np.testing.assert_allclose(np.cumsum(steps), by_parabolas(t, y), rtol=1e-12, atol=1e-13)

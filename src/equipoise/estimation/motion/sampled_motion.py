@@ -14,7 +14,7 @@ from equipoise.estimation.motion.observed_vectors import observed
 from equipoise.estimation.motion.vector_attitude import attitude_by_vectors, integrate_rate
 from equipoise.maths.attitude import level
 from equipoise.maths.local_motion import half_window, local_motion
-from equipoise.model.arrays import Floats, Series1, Series3, Series4
+from equipoise.model.arrays import Floats, Ints, Series1, Series3, Series4
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
@@ -31,10 +31,15 @@ class SampledMotion(NamedTuple):
 def averaged(t: Series1, values: Floats, at: Series1, width: float) -> Floats:
     """Return the mean of a channel over a window around each time."""
     running = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
+    first, last = rows_around(t, at, width)
+    return (running[last] - running[first]) / (last - first)[:, None]
+
+
+def rows_around(t: Series1, at: Series1, width: float) -> tuple[Ints, Ints]:
+    """Return the rows of a channel in a window around each time: the first, and behind the last."""
     first = np.searchsorted(t, at - width / 2, side="left")
     last = np.maximum(np.searchsorted(t, at + width / 2, side="right"), first + 1)
-    last, first = np.minimum(last, len(t)), np.minimum(first, len(t) - 1)
-    return (running[last] - running[first]) / (last - first)[:, None]
+    return np.minimum(first, len(t) - 1), np.minimum(last, len(t))
 
 
 def sampled_motion(recording: Recording, testbed: Testbed) -> SampledMotion:

@@ -28,6 +28,7 @@ from equipoise.sensors.camera import N_SENSOR
 WITH_GYRO = 0.3  # relative sd given to the testbed's inertia, chosen: a first CAD model
 WITHOUT = 1e-3  # chosen: firm
 COM_TRUST = 3e-4  # m, least sd of the testbed's centre of mass
+MOMENTUM_SIZE = 0.1  # rad/s, by the largest moment: natural to the first momentum, for scaling
 CORRELATED = 5.0  # chosen: smoothed rates err together over some 25 rows, so rows count as fewer
 
 
@@ -144,7 +145,7 @@ def solve(
     sizes = element_sizes(body.inertia_P)
     spread = np.concatenate([trust * sizes, np.maximum(3 * testbed.com_sd, COM_TRUST)])
     guess = core_of(body)
-    scale = np.append(spread, np.full(3, float(sizes.max()) * 0.1))
+    scale = np.append(spread, np.full(3, MOMENTUM_SIZE * float(sizes.max())))
     A = regressor * scale
     normal, right = A.T @ A, A.T @ known
     # with the inertia as guessed, what misfit is left decides how much the priors weigh

@@ -42,6 +42,7 @@ from equipoise.estimation.output_error.initial_guess import as_measured, start
 from equipoise.estimation.output_error.multiple_shooting import shot
 from equipoise.estimation.output_error.problem import (
     ANCHOR,
+    NOTHING,
     Problem,
     changes,
     errors_of,
@@ -61,7 +62,7 @@ from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, cor
 from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.model import sensor_terms
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Series1
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import BODY, INERTIA
 from equipoise.model.recording import Recording, arranged
@@ -113,14 +114,20 @@ def layout_with(
 @lru_cache(maxsize=4)  # by identity, as ``mass_errors``
 def fastest_rate(recording: Recording) -> float:
     """Return the greatest rate (rad/s) measured, roughly; 0 where nothing says."""
-    rates: list[Floats] = []
-    if recording.rate is not None and len(recording.rate):
-        rates.append(np.linalg.norm(recording.rate.values, axis=1))
-    if recording.attitude is not None and len(recording.attitude) > 1:
-        q, t = recording.attitude.values, recording.attitude.t
-        cosine = np.clip(np.abs(np.sum(q[1:] * q[:-1], axis=1)), 0, 1)
-        rates.append(2 * np.arccos(cosine) / np.diff(t))
-    return max((float(np.percentile(r, 95)) for r in rates), default=0.0)
+    attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
+    return float(fastest_of(attitude.t, attitude.values, rate.values))
+
+
+def fastest_of(t: Series1, attitude: Floats, rate: Floats) -> Floats:
+    """Return the same of attitudes (..., n, 4), at times t, and of rates (..., m, 3) of a gyro."""
+    found = np.zeros(attitude.shape[:-2])
+    if rate.shape[-2]:
+        found = np.percentile(np.linalg.norm(rate, axis=-1), 95, axis=-1)
+    if attitude.shape[-2] > 1:
+        cosine = np.sum(attitude[..., 1:, :] * attitude[..., :-1, :], axis=-1)
+        turns = 2 * np.arccos(np.clip(np.abs(cosine), 0, 1)) / np.diff(t)
+        found = np.maximum(found, np.percentile(turns, 95, axis=-1))
+    return np.asarray(found)
 
 
 def is_scale_open(recording: Recording, testbed: Testbed, params: Params) -> bool:

@@ -14,7 +14,7 @@ which is exact for parabolas. Steps are taken in pairs, so every other one looks
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Series1
+from equipoise.model.arrays import Floats, Ints, Series1
 
 
 def by_trapezia(t: Series1, y: Series1) -> Series1:
@@ -31,9 +31,29 @@ def by_parabolas(t: Series1, y: Floats) -> Floats:
     return np.cumsum(steps, axis=0)
 
 
+def parabola_weights(t: Series1) -> tuple[Ints, Floats]:
+    """Return by which three rows ``by_parabolas`` takes each row's step: the first (n,).
+
+    And their weights (n, 3), s. The step is the one that ends at the row; the first row has none.
+    """
+    h, n = np.diff(t), len(t)
+    ahead, back = (scale[:, None] * np.column_stack(parts)
+                   for scale, parts in (_of_three(h), _of_three(h[::-1])))  # fmt: skip
+    first, weights = np.maximum(np.arange(n) - 2, 0), np.zeros((n, 3))
+    weights[2:] = back[::-1, ::-1]
+    first[1:-1:2], weights[1:-1:2] = np.arange(0, n - 2, 2), ahead[::2]
+    return first, weights
+
+
 def _parts(h: Floats, y: Floats) -> Floats:
     """Return the integral over each step but the last, of the parabola through the next row."""
+    scale, (before, behind, after) = _of_three(h)
+    return scale * (before * y[:-2] + behind * y[1:-1] + after * y[2:])
+
+
+def _of_three(h: Floats) -> tuple[Floats, tuple[Floats, Floats, Floats]]:
+    """Return by what the rows before, behind and after each step but the last count."""
     first, second = h[:-1], h[1:]
     r = first / (first + second)
     bend = r * (first / second)
-    return first / 6 * ((3 - r) * y[:-2] + (3 + bend + r) * y[1:-1] + -bend * y[2:])
+    return first / 6, (3 - r, 3 + bend + r, -bend)

@@ -85,10 +85,13 @@ def columns(
     torque = full[:, :, [*range(MOMENT, TORQUE), *wanted]]
     torque[:, :, :3] *= testbed.body.mass
     k, dmu = known_momentum(recording, testbed, t, w)
-    reported, shifted = recording.torque, np.cross(dmu, g)
-    impulse = (
-        integral_at(t, reported.t, reported.values)
-        if reported is not None and len(reported)
-        else 0 * k
-    )
+    shifted, impulse = np.cross(dmu, g), known_impulse(recording, t)
     return Columns(full[:, :, :MOMENT], torque, k, shifted, impulse, R, g)
+
+
+def known_impulse(recording: Recording, t: Series1) -> Series3:
+    """Return the integral of the known torque from the first of the times t on, N m s."""
+    reported = recording.torque
+    if reported is None or not len(reported):
+        return np.zeros((len(t), 3))
+    return integral_at(t, reported.t, reported.values)

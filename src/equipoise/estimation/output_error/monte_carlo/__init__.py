@@ -1,0 +1,1 @@
+"""Fits of many records that share their times, as a Monte Carlo makes them."""
