@@ -48,7 +48,7 @@ def suitable_half(t: Floats, q: Floats, period: float) -> float:
         x, y, z = turn(q[k], q[k + 1])
         speeds[k] = (x * x + y * y + z * z) ** 0.5 / (t[k + 1] - t[k])
     speeds.sort()  # a kernel with ``np.median`` loads SciPy's linear algebra
-    fastest = 0.5 * (speeds[(n - 1) // 2] + speeds[n // 2]) + 1e-9
+    fastest = 0.5 * float(speeds[(n - 1) // 2] + speeds[n // 2]) + 1e-9
     return max(min(TURN / fastest, LONGEST), 2.5 * period)
 
 
