@@ -153,6 +153,27 @@ def step_from(
 
 
 @part
+def advance(
+    body: Body, here: Now, fixed: bool, sloped: bool, inputs: Inputs, i: int, y: Floats,
+    ends: tuple[Floats, Floats, Floats], work: Work,
+) -> Now:  # fmt: skip
+    """Take y over step i, in place, and return the platform as it is at its end.
+
+    Write what ``interpolate`` takes: y at the beginning, and the slopes at both ends. ``sloped``:
+    the last of ``ends`` is the slope at the beginning already, that at the end of the step before.
+    """
+    y0, dy0, dy1 = ends
+    if not sloped:
+        slope_at(body, here, inputs, i, 0.0, y, work, dy1)
+    for j in range(y.shape[0]):
+        y0[j], dy0[j] = y[j], dy1[j]
+    step_from(body, here, fixed, inputs, i, y, dy0, work)
+    now = body_within(body, inputs.maps, inputs.t, inputs.known, i, 1.0, fixed, here)
+    slope_at(body, now, inputs, i, 1.0, y, work, dy1)
+    return now
+
+
+@part
 def to_unit(y: Floats) -> None:
     """Bring the quaternion to unit length."""
     norm = (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3]) ** -0.5

@@ -77,18 +77,13 @@ def inverse_where(matrix: Square, free: Bools) -> Square:
 
 def inverse_of_each(matrices: Floats, free: Bools) -> Floats:
     """Return ``inverse_where`` of each matrix (k, n, n); nan of one that is not positive."""
-    some = matrices[:, free][:, :, free]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        scale = np.diagonal(some, axis1=1, axis2=2) ** -0.5
-        unit = some * scale[:, :, None] * scale[:, None, :]
-    sound = np.all(np.isfinite(unit), axis=(1, 2))
-    unit[~sound] = np.eye(unit.shape[1])
-    found = np.linalg.inv(unit)
-    found = 0.5 * (found + found.transpose(0, 2, 1)) * scale[:, :, None] * scale[:, None, :]
-    found[~sound] = np.nan
-    inverse = np.zeros_like(matrices)
-    inverse[np.ix_(np.arange(len(matrices)), free, free)] = found
-    return inverse
+    found = np.zeros_like(matrices)
+    for matrix, inverse in zip(matrices, found, strict=True):
+        try:
+            inverse[:] = inverse_where(matrix, free)
+        except np.linalg.LinAlgError:
+            inverse[np.ix_(free, free)] = np.nan
+    return found
 
 
 def inverse_blocks(matrices: Floats, own: Sequence[int]) -> Floats:

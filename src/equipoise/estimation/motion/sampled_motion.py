@@ -19,6 +19,8 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
 
+ENOUGH = 4  # rows of a camera, of which attitude and rate are taken
+
 
 class SampledMotion(NamedTuple):
     """What the linear methods take."""
@@ -45,7 +47,7 @@ def rows_around(t: Series1, at: Series1, width: float) -> tuple[Ints, Ints]:
 def sampled_motion(recording: Recording, testbed: Testbed) -> SampledMotion:
     """Return attitude and rate at common times."""
     attitude, rate = recording.attitude, recording.rate
-    if attitude is None or len(attitude) < 4:
+    if attitude is None or len(attitude) < ENOUGH:
         assert rate is not None
         t, vectors = measured_at(rate.t, testbed.gyro), observed(recording, testbed)
         if vectors:

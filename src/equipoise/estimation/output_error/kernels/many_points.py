@@ -9,7 +9,7 @@ Between two such moments a swing turns by half of what it turns in a step.
 
 import numpy as np
 
-from equipoise.dynamics.propagation import interpolate, slope_at, start, steady, step_from
+from equipoise.dynamics.propagation import advance, interpolate, start, steady
 from equipoise.dynamics.rigid_body import (
     ROWS,
     Body,
@@ -24,7 +24,6 @@ from equipoise.dynamics.sensitivities import Inputs, Work, work_for
 from equipoise.estimation.output_error.kernels.gauss_newton import Posed, descend, local_for
 from equipoise.estimation.parameters.retraction import W, body_at_point
 from equipoise.maths.kernels.compiled import kernel, part
-from equipoise.maths.kernels.copying import copy_values
 from equipoise.maths.levenberg_marquardt import FIRST, GROWTH
 from equipoise.model.arrays import Floats, Triple
 
@@ -52,18 +51,12 @@ def peak_along(
     for i in range(t.shape[0] - 1):
         is_steady = steady(known, i)
         fixed, here = is_steady and not moving, body_at(body, maps, t, known, i, 0.0)
-        if not (was_steady and is_steady):
-            slope_at(body, here, inputs, i, 0.0, y, work, dy1)
-        copy_values(y, y0)
-        copy_values(dy1, dy0)
-        peak = greater(here, y0, up, peak)
-        step_from(body, here, fixed, inputs, i, y, dy0, work)
-        now = body_within(body, maps, t, known, i, 1.0, fixed, here)
-        slope_at(body, now, inputs, i, 1.0, y, work, dy1)
-        peak = greater(now, y, up, peak)
+        sloped, was_steady = was_steady and is_steady, is_steady
+        now = advance(body, here, fixed, sloped, inputs, i, y, (y0, dy0, dy1), work)
+        peak = greater(now, y, up, greater(here, y0, up, peak))
         interpolate(y0, dy0, y, dy1, t[i + 1] - t[i], 0.5, 0.0, work.at)
         middle = body_within(body, maps, t, known, i, 0.5, fixed, here)
-        peak, was_steady = greater(middle, work.at, up, peak), is_steady
+        peak = greater(middle, work.at, up, peak)
     return peak
 
 

@@ -21,14 +21,13 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.dynamics.propagation import (
+    advance,
     evaluate,
     hermite,
     interpolate,
     slope,
-    slope_at,
     start,
     steady,
-    step_from,
 )
 from equipoise.dynamics.regressor import WIDTH
 from equipoise.dynamics.rigid_body import (
@@ -333,14 +332,8 @@ def accumulate(
     for i in range(stretch[0], stretch[1]):
         is_steady = steady(known, i)
         fixed, here = is_steady and not moving, body_at(body, maps, t, known, i, 0.0)
-        if not (was_steady and is_steady):
-            slope_at(body, here, inputs, i, 0.0, y, step, dy1)
-        for j in range(y.shape[0]):
-            y0[j], dy0[j] = y[j], dy1[j]
-        step_from(body, here, fixed, inputs, i, y, dy0, step)
-        now = body_within(body, maps, t, known, i, 1.0, fixed, here)
-        slope_at(body, now, inputs, i, 1.0, y, step, dy1)
-        h, was_steady = t[i + 1] - t[i], is_steady
+        sloped, was_steady, h = was_steady and is_steady, is_steady, t[i + 1] - t[i]
+        now = advance(body, here, fixed, sloped, inputs, i, y, (y0, dy0, dy1), step)
         while iq < q_node.shape[0] and (q_node[iq] == i or i == last):
             share = q_share[iq] if q_node[iq] == i else 1.0
             cost += see_attitude(work, data, sensor, now, h, share, n, iq, limit, left_q[iq])

@@ -23,6 +23,7 @@ import numpy as np
 from equipoise.dynamics.propagation import NO_COLUMNS, NO_GROUPS, stacked
 from equipoise.dynamics.sensitivities import Inputs
 from equipoise.estimation.motion.observed_vectors import observed
+from equipoise.estimation.motion.sampled_motion import ENOUGH
 from equipoise.estimation.output_error.fixed_parameters import fixed
 from equipoise.estimation.output_error.growing_horizon import CAPTURE
 from equipoise.estimation.output_error.kernels.many_records import Blind, Descents, settle_each
@@ -51,8 +52,6 @@ from equipoise.model.arrays import Bools, Floats, Ints
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples, arranged
 from equipoise.model.testbed import Testbed
-
-ENOUGH = 4  # rows of a camera, of which the linear methods take attitude and rate
 
 
 @dataclass(frozen=True, slots=True, eq=False)
