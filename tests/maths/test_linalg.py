@@ -13,6 +13,7 @@ from equipoise.maths.linalg import (
     inverse_of_each,
     inverse_spd,
     inverse_where,
+    is_positive_definite,
     lag_one,
     pack_symmetric,
     schur_complement,
@@ -122,6 +123,20 @@ def test_what_is_held_has_no_covariance():
     found = inverse_where(BY_HAND, np.array([True, False, True]))
     expected = np.array([[2.0, 0.0, -1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 4.0]]) / 7.0
     np.testing.assert_allclose(found, expected, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("matrix", "positive"),
+    [
+        ([[4.0, 1.0], [1.0, 1.0]], True),  # det 3
+        ([[4.0, 3.0], [3.0, 1.0]], False),  # det -5
+        ([[1e20, 0.5e10], [0.5e10, 1.0]], True),  # rows of other units: correlation 1/2
+        ([[0.0, 0.0], [0.0, 1.0]], False),
+        ([[np.nan, 0.0], [0.0, 1.0]], False),
+    ],
+)
+def test_a_matrix_is_positive_definite_where_each_eigenvalue_is(matrix, positive):
+    assert is_positive_definite(np.array(matrix)) is positive
 
 
 def test_inverses_of_many_are_those_of_each():

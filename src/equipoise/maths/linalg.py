@@ -68,6 +68,15 @@ def inverse_spd(matrix: Square) -> Square:
     return symmetrise(inverse) * np.outer(scale, scale)
 
 
+def is_positive_definite(matrix: Square) -> bool:
+    """Return whether every eigenvalue is positive, once scaled to unit diagonal."""
+    diagonal = np.diag(matrix)
+    if not np.all(diagonal > 0):
+        return False
+    scale = 1.0 / np.sqrt(diagonal)
+    return bool(eigen_symmetric(matrix * np.outer(scale, scale))[0][0] > 0)
+
+
 def inverse_where(matrix: Square, free: Bools) -> Square:
     """Return the inverse of the block of rows and columns that are free, and zero elsewhere."""
     inverse = np.zeros_like(matrix)

@@ -151,6 +151,14 @@ def test_a_start_that_leads_nowhere_is_followed_by_another(models, joint, monkey
     assert np.abs((again.x - joint.x) / sd).max() < 0.05
 
 
+def test_where_the_information_is_not_positive_no_descent_has_arrived(joint):
+    """A small promise says nothing there: the second record counts against the first."""
+    against = replace(joint.records[1], weight=-2.0)
+    found = descend(replace(joint, records=(joint.records[0], against), converged=False))
+    assert all(record.fitted.converged for record in found.records)
+    assert not found.converged
+
+
 def test_a_descent_whose_budget_is_spent_stays_where_it_is(models, joint):
     budget = Budget(lambda: lambda: True)
     found = fit_jointly(models, [1.0, 1.0], BED, budget)

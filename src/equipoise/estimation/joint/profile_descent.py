@@ -36,7 +36,7 @@ from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.estimation.parameters.retraction import possible_step, step_work_for
 from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.maths.levenberg_marquardt import FIRST, judge, promise, tolerated
-from equipoise.maths.linalg import inverse_spd, inverse_where
+from equipoise.maths.linalg import inverse_spd, inverse_where, is_positive_definite
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.testbed import Testbed
@@ -153,7 +153,8 @@ def descend(joint: Joint, budget: Budget = UNLIMITED) -> Joint:
     """Return the optimum from a joint fit.
 
     It has arrived when a step promises less than a hundredth of a standard deviation a record, as
-    nearly as each record's own optimum is found.
+    nearly as each record's own optimum is found. Where a prediction grows beyond what digits hold,
+    the information is not positive: a small promise says nothing there, and it has not arrived.
     """
     damping, growth = FIRST, 2.0
     for _ in range(MOST):
@@ -163,7 +164,8 @@ def descend(joint: Joint, budget: Budget = UNLIMITED) -> Joint:
         step = within_possible(joint, normal, descent, damping)
         promised = promise(normal, descent, step)
         if promised < len(joint.records) * tolerated(joint.cost, joint.rows):
-            return replace(joint, converged=all(r.fitted.converged for r in joint.records))
+            settled_all = all(r.fitted.converged for r in joint.records)
+            return replace(joint, converged=settled_all and is_positive_definite(normal))
         trial = moved_to(joint, joint.x + step)
         gained = 2.0 * (joint.cost - trial.cost)
         taken, damping, growth = judge(gained, promised, damping, growth)
