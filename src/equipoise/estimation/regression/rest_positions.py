@@ -20,7 +20,6 @@ is longer than the longest arm |r + dr_i|, r is not reported.
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.actuators.stops import travels
@@ -28,6 +27,7 @@ from equipoise.dynamics.timeline import straight_lines
 from equipoise.estimation.method_contract import Options, origin_of
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.chi_square import chi_square_limit
+from equipoise.maths.levenberg_marquardt import FIRST, judge, promise
 from equipoise.maths.linalg import inverse_spd
 from equipoise.maths.sampled.long_run import long_run_covariance, memory
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
@@ -45,7 +45,8 @@ FEWEST = 10  # rows in a stop
 SETTLING = 0.5  # chosen: of a stop, until the platform rests
 SWING = np.radians(0.5)  # chosen: a platform that swings more does not rest
 SURE = 0.999  # of a chi-square
-SHORTEST, SIZE = 1e-9, 1e-5  # m, chosen: no lever arm; the size of a centre of mass
+SHORTEST = 1e-9  # m, chosen: no lever arm
+MOST, LEAST = 100, 1e-10  # chosen: steps of a search; of twice the cost, that one may promise
 WEAKEST = 1e-4  # smallest usable eigenvalue of the mean of [n x]^T [n x], two being near 1
 
 
@@ -118,20 +119,36 @@ def rest_information(rests: list[Rest]) -> Matrix3:
     return sum((across(rest.down) for rest in rests), np.zeros((3, 3)))
 
 
+def local_model(rests: list[Rest], com: Vector3) -> tuple[Matrix3, Vector3, float]:
+    """Return information, descent (half of the cost's, downwards) and twice the cost at r."""
+    information, descent, cost = np.zeros((3, 3)), np.zeros(3), 0.0
+    for rest in rests:
+        u, slope = along(com + rest.shift)
+        left = (rest.down - u) / rest.sd
+        information += slope.T @ slope / rest.sd**2
+        descent += slope.T @ left / rest.sd
+        cost += float(left @ left)
+    return information, descent, cost
+
+
 def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
     """Return r, its information, and twice the cost there."""
     right = -sum((across(rest.down) @ rest.shift for rest in rests), np.zeros(3))
 
-    def left(com: Floats) -> Floats:
-        return np.concatenate([(along(com + s.shift)[0] - s.down) / s.sd for s in rests])
-
-    def slope(com: Floats) -> Floats:
-        return np.concatenate([along(com + s.shift)[1] / s.sd for s in rests])
-
-    start = np.linalg.solve(rest_information(rests), right)
-    found = scipy.optimize.least_squares(left, start, slope, method="lm", x_scale=SIZE)
-    com = np.asarray(found.x, dtype=np.float64)
-    return com, slope(com).T @ slope(com), float(np.sum(left(com) ** 2))
+    com = np.linalg.solve(rest_information(rests), right)
+    information, descent, cost = local_model(rests, com)
+    damping, growth = FIRST, 2.0
+    for _ in range(MOST):
+        damped = information + damping * np.diag(np.diag(information))
+        step = np.linalg.solve(damped, descent)
+        promised = promise(information, descent, step)
+        if promised < LEAST:
+            break
+        trial = local_model(rests, com + step)
+        taken, damping, growth = judge(cost - trial[2], promised, damping, growth)
+        if taken:
+            com, (information, descent, cost) = com + step, trial
+    return com, information, cost
 
 
 def doubts(rests: list[Rest], misfit: float) -> tuple[Reason, ...]:

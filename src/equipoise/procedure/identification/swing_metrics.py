@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-import scipy
 
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
 from equipoise.assessment.metrics.period import swings
@@ -33,6 +32,7 @@ from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.estimation.regression.solvers.least_squares import least_squares
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
+from equipoise.maths.sampled.savitzky_golay import slope_weights
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import INERTIA, Estimate
 from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
@@ -187,7 +187,7 @@ def window_for(found: tuple[Hanging, ...], duration: float, posed: Posed) -> flo
 def gain(seconds: float, period: float, frequency: float) -> float:
     """Return the share of a sine's slope that a cubic through a window gives."""
     rows = max(round(seconds / period) // 2 * 2 + 1, 2 * DEGREE - 1)
-    weights = scipy.signal.savgol_coeffs(rows, DEGREE, deriv=1, delta=period, use="dot")
+    weights = slope_weights(rows, DEGREE, period)
     at = period * (np.arange(rows) - rows // 2)
     omega = 2 * np.pi * frequency
     return float(weights @ np.sin(omega * at)) / omega

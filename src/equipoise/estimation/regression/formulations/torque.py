@@ -18,10 +18,10 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from equipoise.estimation.regression.formulations.momentum import body_axes
 from equipoise.estimation.regression.formulations.rows import Formulation, Posed, Rows
+from equipoise.maths.sampled.savitzky_golay import slope_weights
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Series, Series1
 
@@ -60,9 +60,7 @@ def even_savitzky_golay(values: Series, period: float) -> tuple[Series, int, flo
 
 def slope_of_cubic(values: Series, period: float, n: int) -> Series:
     """Return the slope of a cubic through n rows, in their middle."""
-    return filtered(
-        values, scipy.signal.savgol_coeffs(n, min(DEGREE, n - 1), deriv=1, delta=period, use="dot")
-    )
+    return filtered(values, slope_weights(n, min(DEGREE, n - 1), period))
 
 
 def filtered(values: Series, weights: Floats) -> Series:
