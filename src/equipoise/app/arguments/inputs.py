@@ -11,9 +11,8 @@ from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.app.arguments.checks import one_of, positive, share
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.search_budget import UNLIMITED, Budget
-from equipoise.io.columns.column_map_file import read_column_map
+from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.read_options import ReadOptions
-from equipoise.io.documents.plan_file import read_plan
 from equipoise.io.files.source_file import read_text
 from equipoise.io.recording.frame_check import check_frame
 from equipoise.io.recording.recording_file import check_names, read_recording
@@ -107,9 +106,16 @@ def read_options(reading: "Reading", dashes: str = "") -> ReadOptions:
     if reading.dialect is not None and reading.columns is not None:
         raise InputError(f"{dashes}dialect and {dashes}columns", "both", "one of them")
     share(f"{dashes}bad{'-' if dashes else '_'}rows", reading.bad_rows)
-    columns = None if reading.columns is None else read_column_map(reading.columns)
+    columns = None if reading.columns is None else column_map_in(reading.columns)
     return ReadOptions(reading.dialect, columns, reading.topic, reading.body, reading.instance,
                        reading.bad_rows, memory_of(reading, dashes))  # fmt: skip
+
+
+def column_map_in(path: str) -> ColumnMap:
+    """Return the column map of a file."""
+    from equipoise.io.columns.column_map_file import read_column_map
+
+    return read_column_map(path)
 
 
 def memory_of(reading: "Reading", dashes: str = "") -> int | None:
@@ -147,7 +153,11 @@ def part_of(recording: Recording, start: float | None, end: float | None) -> Rec
 
 def plan_from(plan: AnyPlan, testbed: Testbed) -> Plan:
     """Return a plan, or that of a file; InputError for what the testbed cannot do."""
-    return plan if isinstance(plan, Plan) else read_plan(plan, testbed)
+    if isinstance(plan, Plan):
+        return plan
+    from equipoise.io.documents.plan_file import read_plan
+
+    return read_plan(plan, testbed)
 
 
 def options_from(

@@ -16,7 +16,6 @@ import platform
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -99,6 +98,8 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
 
     def _begun(self, opening: Opening) -> tuple[McapWriter, Topics]:
         """Write what stands in front of the first row."""
+        from importlib.metadata import version  # takes as long as all else that a reader loads
+
         start = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=opening.zero_ns // 1000)
         message = {
             "equipoise": __version__,
