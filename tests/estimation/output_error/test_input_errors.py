@@ -133,8 +133,8 @@ def test_a_wheel_turns_its_momentum_with_its_mounting_and_scales_it_with_its_gai
     bed = replace(platform(), wheels=(wheel,))
     record = with_known_inputs(with_wheel(recording(120.0, AFTER), 100.0), bed)
     found = {}
-    assert [varied.axis for varied in devices_varied(record, bed, STEP)] == ["", "x", "y", "z"]
-    for varied in devices_varied(record, bed, STEP):
+    assert [varied.axis for varied in devices_varied(record, bed)] == ["", "x", "y", "z"]
+    for varied in devices_varied(record, bed):
         off = (varied.recording.momentum.values - record.momentum.values)[-1] / STEP
         found.setdefault(varied.name, []).append(off)
     np.testing.assert_allclose(found["gain of z"], [[0.0, 0.0, 0.1 * SD]], atol=1e-12)

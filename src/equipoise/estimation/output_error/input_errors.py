@@ -7,8 +7,7 @@ cost, an input p off by one sd s moves the optimum by
 
     dx = A^-1 db/dp s,         covariance + sum over inputs of dx dx^T
 
-db/dp is the difference quotient of b at the optimum, to either side: what is known far worse than
-all else, such as a scale, turns the curvature of b into a shift. What follows from the estimate and
+db/dp is the difference quotient of b at the optimum. What follows from the estimate and
 the input together (the centre of mass at the end, masses where they stand) takes both ways.
 
 Masses that travel on rails are sought instead, each with its sd as prior (``drive_errors``): three
@@ -49,7 +48,7 @@ from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.sensors.vector_sensors import CHANNELS as VECTORS
 
-STEP = 1e-3  # sd, chosen: so small that the quotient is a derivative, far above rounding
+STEP = 1e-6  # sd, chosen: curvature of b counts for nothing, and rounding does not yet
 AXES = np.eye(3)
 GYRO_CLOCK = "gyro clock"
 
@@ -112,32 +111,32 @@ def sought_weights(problem: Problem) -> dict[str, int]:
     return found
 
 
-def platform_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
+def platform_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield mass, gravity, masses on rails, and momentum and torque that no device explains."""
     body, masses = testbed.body, testbed.masses
-    heavier = replace(body, mass=body.mass * (1 + part * testbed.mass_sd))
+    heavier = replace(body, mass=body.mass * (1 + STEP * testbed.mass_sd))
     yield Varied("platform mass", testbed.mass_sd, recording, replace(testbed, body=heavier))
-    stronger = testbed.gravity * (1 + part * testbed.gravity_sd)
+    stronger = testbed.gravity * (1 + STEP * testbed.gravity_sd)
     yield Varied("gravity", testbed.gravity_sd, recording, replace(testbed, gravity=stronger))
     for i, mass in enumerate(masses):
         if not mass.mass_sd > 0:
             continue
-        other = replace(mass, mass=mass.mass * (1 + part * mass.mass_sd))
+        other = replace(mass, mass=mass.mass * (1 + STEP * mass.mass_sd))
         rest = replace(testbed, masses=(*masses[:i], other, *masses[i + 1 :]))
         yield Varied(weight_of(mass), mass.mass_sd, recording, rest)
     if recording.devices is None:
         for name, sd in (("momentum", testbed.momentum_sd), ("torque", testbed.torque_sd)):
-            yield Varied(name, sd, with_scaled(recording, name, part * sd), testbed)
+            yield Varied(name, sd, with_scaled(recording, name, STEP * sd), testbed)
 
 
-def places_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
+def places_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield where masses stand that are logged in steps, home among them: between these."""
     rows = recording.masses
     if rows is None:
         return
     for i in logged_in_steps(rows, testbed.masses):
         mass = testbed.masses[i]
-        aside = rows.values + part * mass.accuracy * np.eye(len(testbed.masses))[i]
+        aside = rows.values + STEP * mass.accuracy * np.eye(len(testbed.masses))[i]
         other = replace(recording, masses=Samples(rows.t, aside))
         yield Varied(f"position of mass {mass.name}", mass.accuracy, other, testbed)
 
@@ -157,13 +156,13 @@ def by_gyros_clock(recording: Recording, share: float) -> Recording:
     return replace(recording, **late)
 
 
-def clocks_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
+def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield the record's clock, and that of a gyro beside a camera; vectors are on the gyro's."""
     start, _ = recording.span
     camera = recording.attitude
     first = testbed.gyro if camera is None else testbed.attitude
     if first is not None:
-        share = part * first.clock_sd
+        share = STEP * first.clock_sd
         kept = recording if camera is not None else by_gyros_clock(recording, share)
         yield Varied("clock", first.clock_sd, replace(
             kept,
@@ -174,7 +173,7 @@ def clocks_varied(recording: Recording, testbed: Testbed, part: float) -> Iterat
         ), testbed)  # fmt: skip
     if camera is not None and testbed.gyro is not None:
         gyro_clock = testbed.gyro.clock_sd
-        yield Varied(GYRO_CLOCK, gyro_clock, by_gyros_clock(recording, part * gyro_clock), testbed)
+        yield Varied(GYRO_CLOCK, gyro_clock, by_gyros_clock(recording, STEP * gyro_clock), testbed)
 
 
 def alone(testbed: Testbed, device: Device) -> Testbed:
@@ -195,7 +194,7 @@ def turned_by(part: Samples | None, whole: Samples | None, matrix: Matrix3) -> S
     return replace(whole, values=whole.values + part.values @ matrix.T)
 
 
-def devices_varied(recording: Recording, testbed: Testbed, part: float) -> Iterator[Varied]:
+def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield gain and mounting of each device, by its part of the known momentum and torque."""
     if recording.devices is None:
         return
@@ -206,26 +205,19 @@ def devices_varied(recording: Recording, testbed: Testbed, part: float) -> Itera
         changes = [("gain", device.gain_sd, "", AXES)]
         changes += [("mounting", device.mounting_sd, axis, turn) for axis, turn in turned]
         for what, sd, axis, matrix in changes:
-            momentum = turned_by(h, recording.momentum, part * sd * matrix)
-            torque = turned_by(tau, recording.torque, part * sd * matrix)
+            momentum = turned_by(h, recording.momentum, STEP * sd * matrix)
+            torque = turned_by(tau, recording.torque, STEP * sd * matrix)
             driven = replace(recording, momentum=momentum, torque=torque)
             yield Varied(f"{what} of {device.name}", sd, driven, testbed, axis)
 
 
-def variations(problem: Problem, part: float) -> Iterator[Varied]:
-    """Yield every input that has an sd and is not sought, off by a part of that."""
+def variations(problem: Problem) -> Iterator[Varied]:
+    """Yield every input that has an sd and is not sought, off by ``STEP``."""
     recording, testbed, sought = problem.recording, problem.testbed, sought_weights(problem)
     for inputs in (platform_varied, places_varied, clocks_varied, devices_varied):
-        for varied in inputs(recording, testbed, part):
+        for varied in inputs(recording, testbed):
             if varied.sd > 0 and varied.name not in sought:
                 yield varied
-
-
-def descent_with(fitted: Fitted, varied: Varied) -> tuple[Floats, Fitted]:
-    """Return b where a fit stands, an input being off, and the fit then."""
-    other = reposed(fitted.problem, varied.recording, varied.testbed)
-    descent = evaluate(other, fitted.point, fitted.jumps).descent
-    return descent, replace(fitted, problem=other)
 
 
 def input_effects(fitted: Fitted) -> list[InputEffect]:
@@ -233,14 +225,16 @@ def input_effects(fitted: Fitted) -> list[InputEffect]:
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
     found: list[InputEffect] = []
-    for more, less in zip(variations(problem, STEP), variations(problem, -STEP), strict=True):
+    for more in variations(problem):
         if more.recording is problem.recording and more.testbed is problem.testbed:
             none = np.zeros(layout.size)  # the record has nothing of it
             found.append(InputEffect(more.name, more.axis, none, none, fitted))
             continue
-        (above, at), (below, _) = descent_with(fitted, more), descent_with(fitted, less)
+        other = reposed(problem, more.recording, more.testbed)
+        at = replace(fitted, problem=other, at=evaluate(other, fitted.point, fitted.jumps))
+        moved = (at.at.descent - fitted.at.descent) / STEP
         direct = (physical(fitted.point, at.problem.mass, layout) - values) / STEP
-        found.append(InputEffect(more.name, more.axis, (above - below) / (2 * STEP), direct, at))
+        found.append(InputEffect(more.name, more.axis, moved, direct, at))
     return found
 
 

@@ -126,13 +126,11 @@ def descent_by_sag(fitted: Fitted, covariance: Square) -> Floats | None:
     taken_up, rest = descent_by_damping(fitted, more)
     hanging = n @ axes.T * sag
 
-    def descent(part: float) -> Floats:
-        torque = fitted.point.torque.copy()
-        torque[INDEX] += part * rest
-        point = replace(fitted.point, torque=torque)
-        return evaluate(hanging_in(problem, part * hanging), point, fitted.jumps).descent
-
-    return taken_up + (descent(STEP) - descent(-STEP)) / (2 * STEP)
+    torque = fitted.point.torque.copy()
+    torque[INDEX] += STEP * rest
+    point = replace(fitted.point, torque=torque)
+    hung = evaluate(hanging_in(problem, STEP * hanging), point, fitted.jumps)
+    return taken_up + (hung.descent - fitted.at.descent) / STEP
 
 
 def by_sag(fitted: Fitted, covariance: Square) -> Square:
