@@ -14,10 +14,11 @@ import numpy as np
 
 from equipoise.control.elements.momentum_balance import torques_at
 from equipoise.dynamics.sensitivities import work_for
-from equipoise.estimation.output_error.kernels.gauss_newton import descend, local_for
+from equipoise.estimation.output_error.kernels.gauss_newton import descend
 from equipoise.estimation.output_error.kernels.many_records import observing, points_at
 from equipoise.estimation.output_error.kernels.momentum_start import tools_for
 from equipoise.estimation.output_error.kernels.normal_equations import pass_for
+from equipoise.estimation.output_error.kernels.record_pass import local_for
 from equipoise.estimation.output_error.kernels.segments import chain_for, pieces_for
 from equipoise.estimation.output_error.solution import posed
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of

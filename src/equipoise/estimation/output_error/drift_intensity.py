@@ -22,11 +22,8 @@ Cannot see a walk from what else bends a motion as slowly: torques, a gyro's bia
 
 import numpy as np
 
-from equipoise.estimation.output_error.kernels.gauss_newton import (
-    Local,
-    Posed,
-    add_priors,
-)
+from equipoise.estimation.output_error.kernels.gauss_newton import add_priors
+from equipoise.estimation.output_error.kernels.record_pass import Local, Posed
 from equipoise.estimation.output_error.kernels.segments import (
     Chain,
     Cuts,

@@ -16,9 +16,9 @@ from equipoise.dynamics.propagation import stacked
 from equipoise.dynamics.sensitivities import Columns
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, place, timeline
 from equipoise.estimation.motion.observed_vectors import bias_at, mounting_at, observed
-from equipoise.estimation.output_error.kernels.gauss_newton import Posed
 from equipoise.estimation.output_error.kernels.normal_equations import Measurements
 from equipoise.estimation.output_error.kernels.parts import parts_of
+from equipoise.estimation.output_error.kernels.record_pass import Posed
 from equipoise.estimation.output_error.kernels.vector_rows import Vectors
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump, cuts_of, inside
 from equipoise.estimation.parameters.fit_parameters import (

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.estimation.output_error.kernels import gauss_newton
+from equipoise.estimation.output_error.kernels import gauss_newton, record_pass
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed, smooth
 from equipoise.estimation.output_error.kernels.segments import Pieces
 from equipoise.estimation.output_error.problem import Problem, posed
@@ -54,7 +54,7 @@ def settle(
 ) -> Fitted:
     """Return the local optimum from a point and its jumps; None: zero."""
     size, as_posed = problem.layout.size, posed(problem)
-    best = gauss_newton.local_for(as_posed, point.flat)
+    best = record_pass.local_for(as_posed, point.flat)
     if jumps is not None:
         best.pieces.jumps[:] = jumps
     normal, toward = np.eye(size), np.zeros(size)

@@ -135,12 +135,12 @@ def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
     """Return r, its information, and twice the cost there."""
     right = -sum((across(rest.down) @ rest.shift for rest in rests), np.zeros(3))
 
-    com = np.linalg.solve(rest_information(rests), right)
+    com: Vector3 = inverse_spd(rest_information(rests)) @ right
     information, descent, cost = local_model(rests, com)
     damping, growth = FIRST, 2.0
     for _ in range(MOST):
         damped = information + damping * np.diag(np.diag(information))
-        step = np.linalg.solve(damped, descent)
+        step: Vector3 = inverse_spd(damped) @ descent
         promised = promise(information, descent, step)
         if promised < LEAST:
             break

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.output_error.initial_guess import start
-from equipoise.estimation.output_error.kernels.gauss_newton import descend, local_for
+from equipoise.estimation.output_error.kernels.gauss_newton import descend
 from equipoise.estimation.output_error.kernels.parts import Parts, parts_of
+from equipoise.estimation.output_error.kernels.record_pass import local_for
 from equipoise.estimation.output_error.problem import Problem, posed
 from equipoise.estimation.output_error.segment_jumps import Jump, walk
 from equipoise.estimation.output_error.trajectory import Params, problem_of

@@ -21,7 +21,8 @@ from equipoise.dynamics.rigid_body import (
     rate_of,
 )
 from equipoise.dynamics.sensitivities import Inputs, Work, work_for
-from equipoise.estimation.output_error.kernels.gauss_newton import Posed, descend, local_for
+from equipoise.estimation.output_error.kernels.gauss_newton import descend
+from equipoise.estimation.output_error.kernels.record_pass import Posed, local_for
 from equipoise.estimation.parameters.retraction import W, body_at_point
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.levenberg_marquardt import FIRST, GROWTH

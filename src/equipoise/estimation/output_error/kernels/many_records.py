@@ -9,17 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.dynamics.sensitivities import Inputs
-from equipoise.estimation.output_error.kernels.gauss_newton import (
-    Posed,
-    descend,
-    local_for,
-)
+from equipoise.estimation.output_error.kernels.gauss_newton import descend
 from equipoise.estimation.output_error.kernels.normal_equations import (
     Measurements,
     Pass,
     accumulate,
     pass_for,
 )
+from equipoise.estimation.output_error.kernels.record_pass import Posed, local_for
 from equipoise.estimation.parameters.retraction import (
     COM,
     ERROR,
