@@ -8,6 +8,7 @@ from equipoise.app.engine.worker_processes import ONE_THREAD
 os.environ.update(ONE_THREAD | os.environ)
 
 import sys
+from importlib.util import find_spec
 
 from rich.console import Console
 from rich.table import Table
@@ -125,6 +126,9 @@ def show_doors() -> None:
     for what, seconds, wanted in doors.table():
         table.add_row(what, f"{seconds:.3g}", f"{wanted:g}")
     console.print(table)
+    if find_spec("pyarrow") is None:
+        console.print("pyarrow is not installed: long tables are read row by row.")
+        return
     size, by_rows, by_columns = doors.long_text()
     console.print(
         f"{doors.LONG_ROWS:,} rows of CSV ({size:.0f} MB) to numbers: {by_rows:.2f} s row by row, "

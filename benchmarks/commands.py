@@ -1,5 +1,10 @@
-"""Whole commands as a person types them: processor time and memory of fresh processes."""
+"""Whole commands as a person types them: processor time and memory of fresh processes.
 
+Each is the child of a small process of its own: the system counts as a child's memory what its
+parent held when it began.
+"""
+
+import json
 import os
 import subprocess
 import sys
@@ -11,6 +16,13 @@ from typing import NamedTuple
 
 REPEATS = 5
 KIB = 1024.0
+STARTED = """
+import json, os, subprocess, sys
+child = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+_, status, used = os.wait4(child.pid, 0)
+code = os.waitstatus_to_exitcode(status)
+print(json.dumps([code, used.ru_utime + used.ru_stime, used.ru_maxrss]))
+"""
 ENDED = (0, 1)  # exit codes of a command that has answered, also where the answer is no
 MOVE = "30: x1=-10 y1=-10 z1=-50"
 RECORDS = (
@@ -68,11 +80,11 @@ def table() -> Iterator[tuple[Command, Cost]]:
 def cost_of(words: tuple[str, ...], folder: Path, **variables: str) -> Cost:
     """Return what one run of a command took."""
     own = {"EQUIPOISE_RUNS": ""} | variables
-    line = [sys.executable, "-m", "equipoise", *words]
-    process = subprocess.Popen(
-        line, cwd=folder, env=os.environ | own, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    line = [sys.executable, "-c", STARTED, sys.executable, "-m", "equipoise", *words]
+    ended = subprocess.run(
+        line, cwd=folder, env=os.environ | own, check=True, capture_output=True, encoding="utf-8"
     )
-    _, status, used = os.wait4(process.pid, 0)
-    if os.waitstatus_to_exitcode(status) not in ENDED:
+    code, processor, memory = json.loads(ended.stdout)
+    if code not in ENDED:
         raise RuntimeError(f"{' '.join(words)} failed")
-    return Cost(used.ru_utime + used.ru_stime, used.ru_maxrss / KIB)
+    return Cost(processor, memory / KIB)

@@ -1,7 +1,6 @@
 """Tracker, simulator, cost against length, throughput on all cores."""
 
 import os
-import resource
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -23,6 +22,7 @@ from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor
 from equipoise.simulation.bench import SimulatedBench
+from tests.support.peak_memory import forget_peak, peak_mb
 
 
 def tracker_step() -> tuple[float, float]:
@@ -79,10 +79,11 @@ def record_of(rows: int) -> tuple[Recording, ours.Testbed]:
 
 
 def length_row(rows: int, separation: float | None = None) -> tuple[int, float, float]:
-    """Return rows, seconds of one pass (residuals and normal equations), and peak memory (MB).
+    """Return rows, seconds of one pass (residuals and normal equations), and what it held (MB).
 
     ``separation``: time between cuts at which the rate may jump, s; None: an uncut trajectory.
     """
+    forget_peak()
     recording, testbed = record_of(rows)
     cuts = (
         np.zeros(0)
@@ -96,7 +97,7 @@ def length_row(rows: int, separation: float | None = None) -> tuple[int, float, 
     point = replace(point, error=np.zeros(len(problem.layout.errors)))
     evaluate(problem, point)
     seconds = min(_seconds(lambda: evaluate(problem, point)) for _ in range(3))
-    return rows, seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return rows, seconds, peak_mb()
 
 
 def noisy_copies(count: int) -> list[Recording]:

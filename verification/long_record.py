@@ -1,6 +1,5 @@
 """What it takes to identify half an hour at 100 Hz with gaps: seconds, memory, and how well."""
 
-import resource
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -15,6 +14,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import Testbed
 from tests.oracle import cases
+from tests.support.peak_memory import peak_mb
 from verification.chance import mean_square_band
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn
 from verification.stated_errors import stated_correlation, stated_errors
@@ -83,7 +83,7 @@ def identified(task: Task) -> Found:
     began = time.process_time()
     estimate = reference_fit.estimate(recording, testbed, Params())
     seconds = time.process_time() - began
-    held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9
+    held = peak_mb() / 1e3
     z, correlation = stated_errors(estimate, truth), stated_correlation(estimate)
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     fine = estimate.outcome.usable and not estimate.events
