@@ -34,9 +34,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.actuators.changing_rows import changing_rows
 from equipoise.actuators.drive_errors import drive_names
-from equipoise.actuators.stops import is_logged_in_steps
+from equipoise.actuators.stops import changing_rows, is_logged_in_steps
 from equipoise.actuators.stored_momentum import known_torque, stored_momentum
 from equipoise.estimation.output_error.problem import Problem, reposed
 from equipoise.estimation.output_error.solution import Fitted, evaluate

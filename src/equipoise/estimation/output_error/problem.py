@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from equipoise.actuators.drive_errors import on_rails, rails_of
 from equipoise.actuators.lags import LAG
-from equipoise.actuators.changing_rows import changing_rows
 from equipoise.actuators.mass_errors import MassErrors, mass_errors
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
+from equipoise.actuators.stops import changing_rows
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.lamp_warmth import temperature_of
 from equipoise.dynamics.propagation import stacked
