@@ -43,6 +43,15 @@ def test_a_jump_may_take_all_of_a_step_and_arrives_as_late_as_its_path_takes():
     assert found.arrival_sd == pytest.approx(np.hypot(EVEN, 4.0))
 
 
+def test_a_travel_at_the_greatest_speed_is_late_by_no_rounding():
+    """3 s at 1 mm/s from many places: differences of decimals are off by some 1e-15 s."""
+    t = np.array([0.0, 1, 2, 3, 4, 5])
+    for start in range(200):
+        d = np.array([start, start, start + 1, start + 2, start + 3, start + 3]) * 1e-3
+        (found,) = timed(t, d, 1e-3)
+        assert (found.departure_sd, found.arrival_sd, found.is_late) == (0, 0, False)
+
+
 def test_small_steps_with_short_pauses_are_one_travel():
     """A stepper: 1 mm within 0.1 s, then 0.4 s of rest, ten times; then a travel 20 s later."""
     corners = np.concatenate([[0.5 * k, 0.5 * k + 0.1] for k in range(10)])

@@ -8,6 +8,7 @@ really was between two steps. Where there are very many, such a travel is one, w
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -22,6 +23,8 @@ MANY = 30  # stops of one mass, chosen: a search carries the errors of so many
 ROUGH = 0.25  # of a step, chosen: an accuracy that rounding gives, q / sqrt(12), or worse
 ALIKE = 0.1  # of a step, chosen: rounding of logs
 CORNERS = 4  # chosen: of a commanded travel, which waits for other masses
+KEPT = 4  # rows to either side of a change, chosen: what belongs to a travel looks at two
+REACH = 3.0  # s, chosen, and as long to either side: lags are far shorter
 STAND = 0.5  # s, chosen: between two steps of one travel, or less
 
 
@@ -112,3 +115,28 @@ def stop_errors(
         if mass.accuracy > 0
         for k, stand in enumerate(stops_of(track.t, track.values[:, i], mass))
     ]
+
+
+def changing_rows(track: Samples) -> Samples:
+    """Return the first row and those near a change, as one object for all tracks that share them.
+
+    A record that grows has a row for every look while all masses stand. What a travel leaves open
+    (``mass_errors``) is in the rows about it; those with nothing but standing around them add
+    nothing. So what is kept by identity of a track is kept until the next travel.
+    """
+    changed = np.any(track.values[1:] != track.values[:-1], axis=1)
+    changes, t = np.append(0, np.cumsum(changed)), track.t
+    ahead = np.searchsorted(t, t + REACH, side="right") - 1 + KEPT
+    behind = np.searchsorted(t, t - REACH) - KEPT
+    near = changes[np.minimum(ahead, len(t) - 1)] > changes[np.maximum(behind, 0)]
+    near[0] = True
+    if near.all():
+        return track
+    rows = track.where(near)
+    return _one_of(rows.t.tobytes(), rows.values.tobytes(), rows.values.shape[1])
+
+
+@lru_cache(maxsize=4)
+def _one_of(t: bytes, values: bytes, columns: int) -> Samples:
+    found: Floats = np.frombuffer(values).reshape(-1, columns)
+    return Samples(np.frombuffer(t), found)

@@ -33,6 +33,7 @@ from equipoise.model.testbed import SlidingMass
 
 PAUSE = 1.0  # s, chosen: far below the periods of a platform
 MOST = 12  # travels of one mass, chosen: each costs two columns of the propagator
+ROUNDING = 1e-9  # s, chosen: less is no lateness
 FASTER = 1.1  # times the stated speed, chosen: beyond it that says nothing of a travel
 
 
@@ -85,7 +86,8 @@ def one_timed(
     slack = np.where(slack > (1 - 1 / FASTER) * steps, slack, 0.0)  # rounded speeds are no slack
     if not faster:
         slack[1:-1] = 0.0  # within a travel, slower than the greatest speed is a speed
-    later = max(float(under_way.sum() - steps.sum()), 0.0) if commanded else 0.0
+    later = float(under_way.sum() - steps.sum()) if commanded else 0.0
+    later = later if later > ROUNDING else 0.0
     sd = slack / np.sqrt(12)
     arrival_sd = float(np.hypot(sd[-1], later))
     last, path = first + len(steps), float(ways.sum())

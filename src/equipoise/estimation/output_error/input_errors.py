@@ -35,7 +35,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.drive_errors import drive_names
-from equipoise.actuators.stops import is_logged_in_steps
+from equipoise.actuators.stops import changing_rows, is_logged_in_steps
 from equipoise.actuators.stored_momentum import known_torque, stored_momentum
 from equipoise.estimation.output_error.problem import Problem, reposed
 from equipoise.estimation.output_error.solution import Fitted, evaluate
@@ -132,9 +132,9 @@ def platform_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
 def places_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield where masses stand that are logged in steps, home among them: between these."""
     rows = recording.masses
-    if rows is None:
+    if rows is None or not len(rows):
         return
-    for i in logged_in_steps(rows, testbed.masses):
+    for i in logged_in_steps(changing_rows(rows), testbed.masses):
         mass = testbed.masses[i]
         aside = rows.values + STEP * mass.accuracy * np.eye(len(testbed.masses))[i]
         other = replace(recording, masses=Samples(rows.t, aside))

@@ -10,6 +10,7 @@ from equipoise.actuators.drive_errors import on_rails, rails_of
 from equipoise.actuators.lags import LAG
 from equipoise.actuators.mass_errors import MassErrors, mass_errors
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
+from equipoise.actuators.stops import changing_rows
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.lamp_warmth import temperature_of
 from equipoise.dynamics.propagation import stacked
@@ -322,4 +323,6 @@ def changes(recording: Recording, masses_count: bool = True) -> bool:
 
 def errors_of(recording: Recording, testbed: Testbed) -> MassErrors:
     """Return the errors of displacement that this recording can have."""
-    return mass_errors(track_of(recording, testbed), testbed.masses, SHOWN * testbed.body.mass)
+    track = track_of(recording, testbed)
+    rows = None if track is None or not len(track) else changing_rows(track)
+    return mass_errors(rows, testbed.masses, SHOWN * testbed.body.mass)
