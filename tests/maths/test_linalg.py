@@ -13,11 +13,11 @@ from equipoise.maths.linalg import (
     inverse_of_each,
     inverse_spd,
     inverse_where,
-    is_positive_definite,
     lag_one,
     pack_symmetric,
     schur_complement,
     skew,
+    unit_eigenvalues,
     unpack_symmetric,
 )
 
@@ -125,6 +125,11 @@ def test_what_is_held_has_no_covariance():
     np.testing.assert_allclose(found, expected, atol=1e-15)
 
 
+def test_eigenvalues_at_unit_diagonal_by_hand():
+    """Correlation 1 / 2: 1 -+ 1 / 2."""
+    np.testing.assert_allclose(unit_eigenvalues(np.array([[4.0, 1.0], [1.0, 1.0]])), [0.5, 1.5])
+
+
 @pytest.mark.parametrize(
     ("matrix", "positive"),
     [
@@ -135,8 +140,8 @@ def test_what_is_held_has_no_covariance():
         ([[np.nan, 0.0], [0.0, 1.0]], False),
     ],
 )
-def test_a_matrix_is_positive_definite_where_each_eigenvalue_is(matrix, positive):
-    assert is_positive_definite(np.array(matrix)) is positive
+def test_a_matrix_is_positive_where_each_eigenvalue_at_unit_diagonal_is(matrix, positive):
+    assert bool(unit_eigenvalues(np.array(matrix))[0] > 0) is positive
 
 
 def test_inverses_of_many_are_those_of_each():

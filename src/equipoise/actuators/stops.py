@@ -129,7 +129,7 @@ def changing_rows(track: Samples) -> Samples:
     ahead = np.searchsorted(t, t + REACH, side="right") - 1 + KEPT
     behind = np.searchsorted(t, t - REACH) - KEPT
     near = changes[np.minimum(ahead, len(t) - 1)] > changes[np.maximum(behind, 0)]
-    near[0] = True
+    near[:1] = True
     if near.all():
         return track
     rows = track.where(near)

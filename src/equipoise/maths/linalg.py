@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import scipy
 
-from equipoise.model.arrays import Bools, Floats, Matrix3, Series, Square, Vector3, Vector6
+from equipoise.model.arrays import Bools, Floats, Matrix3, Series, Series1, Square, Vector3, Vector6
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # xx yy zz xy xz yz
 
@@ -68,13 +68,16 @@ def inverse_spd(matrix: Square) -> Square:
     return symmetrise(inverse) * np.outer(scale, scale)
 
 
-def is_positive_definite(matrix: Square) -> bool:
-    """Return whether every eigenvalue is positive, once scaled to unit diagonal."""
+def unit_eigenvalues(matrix: Square) -> Series1:
+    """Return the eigenvalues of a symmetric matrix scaled to unit diagonal, ascending.
+
+    All zero when an element of the diagonal is not positive, or no number.
+    """
     diagonal = np.diag(matrix)
     if not np.all(diagonal > 0):
-        return False
-    scale = 1.0 / np.sqrt(diagonal)
-    return bool(eigen_symmetric(matrix * np.outer(scale, scale))[0][0] > 0)
+        return np.zeros(len(matrix))
+    values: Series1 = np.linalg.eigvalsh(matrix / np.sqrt(np.outer(diagonal, diagonal)))
+    return values
 
 
 def inverse_where(matrix: Square, free: Bools) -> Square:

@@ -29,6 +29,7 @@ from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import CORE, physical
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.maths.attitude import tilt, to_matrix
+from equipoise.maths.linalg import unit_eigenvalues
 from equipoise.model.arrays import Floats, Series3, Square
 from equipoise.model.errors import InputError
 from equipoise.model.observability import Observability
@@ -92,10 +93,7 @@ def stated_before(motion: Followed) -> Floats:
 
 def condition(information: Square) -> float:
     """Return the condition number of information with unit diagonal."""
-    diagonal = np.diag(information)
-    if not np.all(diagonal > 0):
-        return np.inf
-    values = np.linalg.eigvalsh(information / np.sqrt(np.outer(diagonal, diagonal)))
+    values = unit_eigenvalues(information)
     return float(values[-1] / values[0]) if values[0] > ROUNDING * values[-1] else np.inf
 
 

@@ -36,7 +36,7 @@ from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.estimation.parameters.retraction import possible_step, step_work_for
 from equipoise.estimation.search_budget import UNLIMITED, Budget, Stage
 from equipoise.maths.levenberg_marquardt import FIRST, judge, promise, tolerated
-from equipoise.maths.linalg import inverse_spd, inverse_where, is_positive_definite
+from equipoise.maths.linalg import inverse_spd, inverse_where, unit_eigenvalues
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.testbed import Testbed
@@ -164,8 +164,8 @@ def descend(joint: Joint, budget: Budget = UNLIMITED) -> Joint:
         step = within_possible(joint, normal, descent, damping)
         promised = promise(normal, descent, step)
         if promised < len(joint.records) * tolerated(joint.cost, joint.rows):
-            settled_all = all(r.fitted.converged for r in joint.records)
-            return replace(joint, converged=settled_all and is_positive_definite(normal))
+            are_settled = all(r.fitted.converged for r in joint.records)
+            return replace(joint, converged=are_settled and bool(unit_eigenvalues(normal)[0] > 0))
         trial = moved_to(joint, joint.x + step)
         gained = 2.0 * (joint.cost - trial.cost)
         taken, damping, growth = judge(gained, promised, damping, growth)

@@ -7,8 +7,10 @@ cost, an input p off by one sd s moves the optimum by
 
     dx = A^-1 db/dp s,         covariance + sum over inputs of dx dx^T
 
-db/dp is the difference quotient of b at the optimum. What follows from the estimate and
-the input together (the centre of mass at the end, masses where they stand) takes both ways.
+db/dp is the difference quotient of b at the optimum, in so small a step that curvature is nothing:
+that would shift what is known far worse than all else, such as a scale. What follows from the
+estimate and the input together (the centre of mass at the end, masses where they stand) takes both
+ways.
 
 Masses that travel on rails are sought instead, each with its sd as prior (``drive_errors``): three
 of them contradict each other. One that stands still off home is carried.
@@ -132,7 +134,7 @@ def platform_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
 def places_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield where masses stand that are logged in steps, home among them: between these."""
     rows = recording.masses
-    if rows is None or not len(rows):
+    if rows is None:
         return
     for i in logged_in_steps(changing_rows(rows), testbed.masses):
         mass = testbed.masses[i]

@@ -324,5 +324,5 @@ def changes(recording: Recording, masses_count: bool = True) -> bool:
 def errors_of(recording: Recording, testbed: Testbed) -> MassErrors:
     """Return the errors of displacement that this recording can have."""
     track = track_of(recording, testbed)
-    rows = None if track is None or not len(track) else changing_rows(track)
+    rows = None if track is None else changing_rows(track)
     return mass_errors(rows, testbed.masses, SHOWN * testbed.body.mass)

@@ -30,6 +30,7 @@ from equipoise.maths.chi_square import chi_square_limit
 from equipoise.maths.levenberg_marquardt import FIRST, judge, promise
 from equipoise.maths.linalg import inverse_spd
 from equipoise.maths.sampled.long_run import long_run_covariance, memory
+from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.estimate import COM, Estimate, Parameter
 from equipoise.model.outcome import Outcome, outcome
@@ -139,8 +140,7 @@ def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
     information, descent, cost = local_model(rests, com)
     damping, growth = FIRST, 2.0
     for _ in range(MOST):
-        damped = information + damping * np.diag(np.diag(information))
-        step: Vector3 = inverse_spd(damped) @ descent
+        step = scaled_solve(information, descent, damping)
         promised = promise(information, descent, step)
         if promised < LEAST:
             break

@@ -14,10 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.output_error.kernels.parts import (
-    Share,
-    share_for,
-)
+from equipoise.estimation.output_error.kernels.parts import Share, share_for
 from equipoise.estimation.output_error.kernels.record_pass import (
     Local,
     Posed,
@@ -25,12 +22,7 @@ from equipoise.estimation.output_error.kernels.record_pass import (
     search_along,
     stop_at_commands,
 )
-from equipoise.estimation.output_error.kernels.segments import (
-    Chain,
-    chain_for,
-    condense,
-    follow,
-)
+from equipoise.estimation.output_error.kernels.segments import Chain, chain_for, condense, follow
 from equipoise.estimation.parameters.retraction import (
     StepWork,
     coordinates_of,

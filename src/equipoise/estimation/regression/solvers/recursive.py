@@ -32,7 +32,7 @@ import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Rows
 from equipoise.maths.kernels.compiled import kernel, part
-from equipoise.maths.linalg import inverse_spd
+from equipoise.maths.linalg import inverse_spd, unit_eigenvalues
 from equipoise.model.arrays import Floats, Ints, Series, Square
 
 WORST = 1e-9  # chosen: least eigenvalue, of a normal matrix of unit diagonal, that is solved
@@ -200,8 +200,7 @@ def begin_with(recursion: Recursion, first: Rows) -> State | None:
     weight = 1.0 / np.tile(recursion.noise, len(first.t))
     known, columns = first.b.reshape(-1) * weight, columns * weight[:, None]
     normal = columns.T @ columns
-    size = np.sqrt(np.diag(normal))
-    if not np.all(size > 0) or np.linalg.eigvalsh(normal / np.outer(size, size))[0] < WORST:
+    if unit_eigenvalues(normal)[0] < WORST:
         return None
     P = inverse_spd(normal)
     c, m = len(first.names), len(recursion.noise)
