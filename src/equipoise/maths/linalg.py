@@ -76,8 +76,8 @@ def unit_eigenvalues(matrix: Square) -> Series1:
     diagonal = np.diag(matrix)
     if not np.all(diagonal > 0):
         return np.zeros(len(matrix))
-    values: Series1 = np.linalg.eigvalsh(matrix / np.sqrt(np.outer(diagonal, diagonal)))
-    return values
+    unit = matrix / np.sqrt(np.outer(diagonal, diagonal))
+    return np.linalg.eigvalsh(unit).astype(np.float64, copy=False)
 
 
 def inverse_where(matrix: Square, free: Bools) -> Square:
