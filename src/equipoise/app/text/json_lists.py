@@ -113,9 +113,24 @@ MANOEUVRE = shape(
     *fields("least_sd least_sd_of_preset_sensors", NUMBERS),
 )
 
+# A quantity of a paper in ``unit``: as printed, as found here, and what they are to each other.
+PAPER_ROW = shape(
+    *fields("place quantity unit", TEXT),
+    *fields("printed ours", VECTOR),
+    *fields("agreement why", TEXT),
+)
+
+REPRODUCE = document(
+    "equipoise/reproduce/1",
+    *fields("paper", TEXT),
+    *fields("seeds", many(COUNT)),
+    *fields("rows", many(PAPER_ROW)),
+)
+
 REPRODUCE_LEE = document(
-    "equipoise/reproduce-lee/2",
+    "equipoise/reproduce-lee/3",
     *fields("seed", COUNT),
+    *fields("rows", many(PAPER_ROW)),
     *fields("loop", shape(*fields("frequency_rad_s damping integral_rad_s", NUMBER))),
     *fields("manoeuvres", many(MANOEUVRE)),
 )

@@ -16,6 +16,7 @@ from equipoise.app.text.blocks import (
 from equipoise.app.text.json_lists import REPRODUCE_LEE
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
+from equipoise.app.views.study.paper_views import paper_table
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import BODY, COM, INERTIA, Estimate
 from equipoise.model.observability import Observability
@@ -33,6 +34,7 @@ from equipoise.study.papers.lee import (
     warns,
 )
 from equipoise.study.papers.lee_course import Courses, courses_of
+from equipoise.study.papers.lee_rows import LeeRun
 
 SHOWN = BODY
 SENSORS = ("fine attitude", "the preset's own")
@@ -71,21 +73,21 @@ def cell_of(estimate: Estimate, name: str, done: Manoeuvre) -> str:
     return f"{value} ({sd}) {error:+.2g}%"
 
 
-def output_of(runs: Sequence[Manoeuvre], seed: int) -> Output:
+def output_of(done: LeeRun) -> Output:
     """Return all that is handed over."""
-    document = document_of(runs, seed)
 
     def record() -> RunRecord:
-        courses = [courses_of(run.slew.recording, run.testbed) for run in runs]
-        return record_of(runs, seed, courses)
+        courses = [courses_of(run.slew.recording, run.testbed) for run in done.slews]
+        return record_of(done, courses)
 
-    return Output("reproduce", document, blocks(runs), record)
+    return Output("reproduce", document_of(done), blocks(done), record)
 
 
-def blocks(runs: Sequence[Manoeuvre]) -> Blocks:
-    """Return a table a slew, what each method says of itself, and the bounds."""
-    slews = (block for run in runs for block in slew_blocks(run))
-    return (*slews, bound_table(runs))
+def blocks(done: LeeRun) -> Blocks:
+    """Return the paper's findings, a table a slew, what each method says of itself, the bounds."""
+    slews = (block for run in done.slews for block in slew_blocks(run))
+    beside = paper_table("Lee et al. beside this program", done.rows)
+    return (beside, *slews, bound_table(done.slews))
 
 
 def slew_blocks(done: Manoeuvre) -> Blocks:
@@ -131,11 +133,13 @@ def least(bound: Observability) -> dict[str, float]:
     return {name: float(bound.sd[bound.names.index(name)]) for name in SHOWN}
 
 
-def document_of(runs: Sequence[Manoeuvre], seed: int) -> View:
+def document_of(done: LeeRun) -> View:
     """Return the reproduction as JSON, SI units."""
     loop = {"frequency_rad_s": FREQUENCY, "damping": DAMPING, "integral_rad_s": INTEGRAL}
-    slews = [slew_of(run) for run in runs]
-    return REPRODUCE_LEE.write({"seed": seed, "loop": loop, "manoeuvres": slews})
+    slews = [slew_of(run) for run in done.slews]
+    return REPRODUCE_LEE.write(
+        {"seed": done.seed, "rows": done.rows, "loop": loop, "manoeuvres": slews}
+    )
 
 
 def slew_of(run: Manoeuvre) -> View:
@@ -151,22 +155,22 @@ def slew_of(run: Manoeuvre) -> View:
     }
 
 
-def record_of(runs: Sequence[Manoeuvre], seed: int, courses: Sequence[Courses]) -> RunRecord:
+def record_of(done: LeeRun, courses: Sequence[Courses]) -> RunRecord:
     """Return the reproduction as a report; drawing its figures takes a while."""
-    large, small = zip(runs, courses, strict=True)
+    large, small = zip(done.slews, courses, strict=True)
     simulated = {
         "paper": "Lee et al., Mass Properties Estimation of a Satellite Simulator Based on the "
         "Integration Method, section V",
-        "seed": str(seed),
+        "seed": str(done.seed),
         "each slew": f"{DURATION:g} s, PID of {FREQUENCY:g} rad/s, damping {DAMPING:g}, integral "
         f"{INTEGRAL:g} rad/s; singularity-robust steering",
     }
     return RunRecord(
         title="Lee et al.'s simulation reproduced",
         requested=simulated | formulations(),
-        testbed=runs[0].testbed,
+        testbed=done.slews[0].testbed,
         conclusion=(),
-        sections=(Section("What the methods found", blocks(runs)),),
+        sections=(Section("What the methods found", blocks(done)),),
         origin=origin(),
         figures=list(pictures_of(large, small)),
     )
