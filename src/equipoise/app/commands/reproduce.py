@@ -55,6 +55,8 @@ def reproduce(
     from equipoise.app.arguments.checks import check_outputs, one_of, positive, seed_of
     from equipoise.app.arguments.many_runs import engine_from
 
+    if paper is None:
+        return _listed(json, out)
     one_of("paper", paper, list(PAPERS))
     first = seed_of(seed)
     seeds = range(first, first + int(positive("--runs", runs)))
@@ -70,7 +72,7 @@ def reproduce(
         def by(what: str) -> "Spread":
             return spread_over(pool, partial(AT_TERMINAL.many, what))
 
-        output = PAPERS[paper](Requested(seeds, by))
+        output = PAPERS[paper].run(Requested(seeds, by))
     hand_over(output, json, out)
     return 0
 
@@ -103,4 +105,28 @@ def _lee(requested: Requested) -> "Output":
     return output_of(lee_run(read_preset("kau"), requested.seeds[0], busy))
 
 
-PAPERS: dict[str, Callable[[Requested], "Output"]] = {"ivanov2021": _ivanov, "lee": _lee}
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A paper that can be reproduced."""
+
+    title: str
+    run: Callable[[Requested], "Output"]
+
+
+PAPERS = {
+    "ivanov2021": Paper("Ivanov et al. 2021: identification and balancing by a camera", _ivanov),
+    "lee": Paper("Lee et al.: the integration method on two slews by gyros", _lee),
+}
+
+
+def _listed(json: bool, out: Path | None) -> int:
+    """Print the papers and what they ask for."""
+    from equipoise.app.logbook.output import print_result
+    from equipoise.app.views.study.items_views import blocks, document_of
+    from equipoise.model.errors import InputError
+
+    if out is not None:
+        raise InputError("--out", "no paper", f"one of {', '.join(PAPERS)}")
+    papers = {name: paper.title for name, paper in PAPERS.items()}
+    print_result(document_of(papers), blocks(papers), json)
+    return 0

@@ -127,6 +127,13 @@ REPRODUCE = document(
     *fields("rows", many(PAPER_ROW)),
 )
 
+REPRODUCE_ITEMS = document(
+    "equipoise/reproduce-items/1",
+    *fields("papers", by_name(TEXT)),
+    *fields("items", many(shape(*fields("name place what shown_by", TEXT),
+                                *fields("works", FLAG)))),
+)  # fmt: skip
+
 REPRODUCE_LEE = document(
     "equipoise/reproduce-lee/3",
     *fields("seed", COUNT),

@@ -2,7 +2,8 @@
 
 It begins at what the testbed says of J, com and torques, so loosely that the record decides (one
 sd: J itself, ten times the sd stated of com); or, as Lee does, with least squares on the first
-seconds, which ask for no start. Nothing is forgotten by default: J and com are constant, and old
+seconds, which ask for no start, once the platform turns: at rest noise alone would determine J.
+Nothing is forgotten by default: J and com are constant, and old
 rows say as much of them as new ones. ``Plan.forget`` (s) is for a com that drifts or steps; J
 should then be held, or the motion never rest.
 
@@ -37,6 +38,7 @@ LOOSE = 10.0  # chosen: times the stated sd of com, so that a start weighs a hun
 NEAREST = 1e-5  # m, chosen: least sd stated of com that is used at the start
 FASTEST = 1.0  # rad/s, chosen: no platform turns faster; for momentum at the start of a piece
 FIRST = 10.0  # s, chosen: of the batch to begin with, doubled until all is observable
+TURNS = 10.0  # chosen: times the noise of a momentum, rms of a batch that begins
 UNKNOWN = 1e-3  # rad/s, chosen: noise of rates that no gyro of the testbed gives
 TORQUE_SD = {  # chosen: a hundred times what air bearings show
     "viscous": 1e-2,
@@ -114,11 +116,23 @@ def start_sd(testbed: Testbed, names: tuple[str, ...]) -> Floats:
     return np.array([float(sd[name]) for name in names])
 
 
+def rate_noise(plan: Plan, testbed: Testbed, rows: Rows) -> float:
+    """Return one sd of the rates behind the plan's filter, rad/s, or of their slopes."""
+    rate = testbed.gyro.noise if testbed.gyro and testbed.gyro.noise > 0 else UNKNOWN
+    return plan.share(rows.t) * rate
+
+
 def noise_of(plan: Plan, testbed: Testbed, rows: Rows) -> Floats:
     """Return one sd of each equation of a row."""
-    rate = testbed.gyro.noise if testbed.gyro and testbed.gyro.noise > 0 else UNKNOWN
     moments = np.diag(testbed.body.inertia_P) if plan.by_moments else np.ones(3)
-    return plan.share(rows.t) * rate * moments
+    return rate_noise(plan, testbed, rows) * moments
+
+
+def turns(rows: Rows, noise: float) -> bool:
+    """Say whether what multiplies each sought moment is far above its noise (rad/s), rms."""
+    moments = [(a, rows.names.index(J)) for a, J in enumerate(INERTIA[:3]) if J in rows.names]
+    rms = [float(np.std(rows.A[:, a, i])) for a, i in moments]
+    return all(size > TURNS * noise for size in rms)
 
 
 def recursion_of(plan: Plan, testbed: Testbed, rows: Rows) -> Recursion:
@@ -141,12 +155,16 @@ def some(rows: Rows, part: slice) -> Rows:
     return replace(rows, t=rows.t[part], A=rows.A[part], b=rows.b[part], piece=piece, omitted=None)
 
 
-def batch_start(recursion: Recursion, rows: Rows) -> tuple[State, int]:
-    """Return the state after a batch that shows everything, and its rows; else the loose start."""
+def batch_start(recursion: Recursion, rows: Rows, noise: float) -> tuple[State, int]:
+    """Return the state after a batch that turns and shows everything; else the loose start.
+
+    With it the number of its rows; ``noise`` is that of the rates in them.
+    """
     span = FIRST
     while len(rows.t) and span < 2 * (rows.t[-1] - rows.t[0]):
         n = int(np.count_nonzero(rows.t <= rows.t[0] + span))
-        state = begin_with(recursion, some(rows, slice(None, n)))
+        first = some(rows, slice(None, n))
+        state = begin_with(recursion, first) if turns(first, noise) else None
         if state is not None:
             return state, n
         span *= 2
@@ -158,7 +176,7 @@ def passed(plan: Plan, testbed: Testbed, rows: Rows) -> Passed:
     recursion, n = recursion_of(plan, testbed, rows), 0
     state = begin(recursion, rows.piece is not None)
     if plan.batch:
-        state, n = batch_start(recursion, rows)
+        state, n = batch_start(recursion, rows, rate_noise(plan, testbed, rows))
     c = len(rows.names)
     first, first_sd = state.x[:c], np.sqrt(np.diag(state.P)[:c])
     state, values, sd = advance(recursion, state, some(rows, slice(n, None)))
