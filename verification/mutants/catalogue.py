@@ -200,7 +200,7 @@ ASSESSMENT = _of(
      "assessment/findings/test_record_findings.py"),
 )  # fmt: skip
 
-ESTIMATION = _of(
+ESTIMATION = (*_of(
     "estimation",
     ("output_error/kernels/vector_rows.py", "(f[0] - once[0] + 0.5", "(f[0] + once[0] + 0.5",
      "estimation/output_error/kernels/test_vector_rows.py"),
@@ -290,7 +290,29 @@ ESTIMATION = _of(
      "estimation/filters/test_filter_kernels.py"),
     ("tracker/noise_level.py", "min(surprise / 3.0, BOUND) - MEAN",
      "min(surprise / 3.0, BOUND) + MEAN", "estimation/tracker/test_consistency.py"),
-)  # fmt: skip
+    ("methods/ukf_4.py", "STRAYS = (0.6, 1.8)", "STRAYS = (0.6, 1.2)",
+     "estimation/filters/test_filters.py"),
+), *_of("estimation/mass_budget", *(
+    (f"{path}.py", old, new, f"estimation/mass_budget/test_{tests}.py")
+    for path, old, new, tests in (
+        ("shapes", "BOX = (1 - np.eye(3)) / 12", "BOX = (1 - np.eye(3)) / 3", "parts"),
+        ("shapes", "[1 / 16, 1 / 16, 1 / 8]", "[1 / 16, 1 / 16, 1 / 4]", "parts"),
+        ("part_moments", "factor * axes @ own @ axes.T", "factor * axes.T @ own @ axes", "parts"),
+        ("part_moments", "- np.outer(centre, centre))", "+ np.outer(centre, centre))", "parts"),
+        ("part_moments", "return p[INERTIA] - np", "return p[INERTIA] + np", "parts"),
+        ("part_moments", "part.turn_sd * three", "0 * three", "parts"),
+        ("oscillations", "- 2 * (a @ first", "+ 2 * (a @ first", "swings"),
+        ("oscillations", "mass * (a @ a - (n @ a)", "mass * (a @ a + (n @ a)", "swings"),
+        ("oscillations", "first - mass * a + weight", "first + mass * a + weight", "swings"),
+        ("oscillations", "period * agm", "period / agm", "swings"),
+        ("oscillations", "+ swing.decay**2", "- swing.decay**2", "swings"),
+        ("oscillations", "(n @ d) ** 2) + fixture", "(n @ d) ** 2) - fixture", "swings"),
+        ("combine", "wanted = h @ unknowns - np", "wanted = h @ unknowns + np", "swings"),
+        ("combine", "np.diag(prior) + h.T @ h", "np.diag(prior) + 4 * h.T @ h", "swings"),
+        ("budget", "if chance < RARE", "if chance < 0", "swings"),
+        ("budget", "np.all(moved < SHOWS", "np.all(moved > SHOWS", "swings"),
+    )
+)))  # fmt: skip
 
 SIMULATION = _of(
     "simulation",

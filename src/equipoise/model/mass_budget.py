@@ -114,6 +114,13 @@ class MassBudget(Plotted):
     checks: tuple[OscillationCheck, ...]
 
     @property
+    def is_whole(self) -> bool:
+        """Whether all of it is known, and can be relied on."""
+        return not self.estimate.outcome.warns and all(
+            p.observable for p in self.estimate.parameters
+        )
+
+    @property
     def body(self) -> MassProperties:
         """Mass, centre of mass and inertia about P."""
         mass = self.estimate.parameters[self.estimate.index(MASS)].value

@@ -165,7 +165,7 @@ def strayed(preset, seed):
     return np.hypot(*slopes) * np.sqrt(np.mean(np.sum(level**2, axis=1)))
 
 
-def test_the_card_says_how_far_an_offset_across_up_moves_the_height():
+def test_the_card_has_the_size_of_what_an_offset_across_up_does_to_the_height():
     found = [strayed(*swing) for swing in SWINGS]
     least, most = ukf_4.STRAYS
     assert min(found) > 0.95 * least

@@ -171,8 +171,8 @@ def test_what_no_axis_shows_has_no_interval():
     """Three axes: moments are known, products are not."""
     rng = np.random.default_rng(4)
     found = mass_budget(parts_list(unknown(), swings=periods(rng, 0.01, AXES[:3])))
-    seen = {p.name[-2:]: p.observable for p in found.estimate.parameters[4:]}
-    assert seen == {"xx": True, "yy": True, "zz": True, "xy": False, "xz": False, "yz": False}
+    shown = {p.name[-2:]: p.observable for p in found.estimate.parameters[4:]}
+    assert shown == {"xx": True, "yy": True, "zz": True, "xy": False, "xz": False, "yz": False}
     assert found.estimate.outcome.code == OutcomeCode.PART_UNOBSERVABLE
     assert not any(p.observable for p in found.central[3:])
     moments = [p.value for p in found.estimate.parameters[4:7]]
@@ -254,9 +254,9 @@ def test_a_doubtful_axis_turns_both_ways_across_itself():
 
 def test_a_place_of_the_weight_counts():
     hung = swing([1, 0, 0], weight=1.0, place=np.array([0.0, 0.1, -0.3]), period_sd=1e-9)
-    near = only_check(replace(hung, place_sd=1e-3), whole()).measured_sd
-    far = only_check(replace(hung, place_sd=3e-3), whole()).measured_sd
-    assert far == pytest.approx(3 * near, rel=1e-3)
+    narrow = only_check(replace(hung, place_sd=1e-3), whole()).measured_sd
+    wide = only_check(replace(hung, place_sd=3e-3), whole()).measured_sd
+    assert wide == pytest.approx(3 * narrow, rel=1e-3)
 
 
 def test_swings_that_contradict_the_parts_are_named():

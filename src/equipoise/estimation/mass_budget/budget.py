@@ -25,6 +25,7 @@ from equipoise.model.mass_budget import (
 from equipoise.model.mass_properties import MassProperties, smallest_second_moment
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.mass_budget_reasons import MassBudgetReason
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.version import __version__
 
@@ -56,11 +57,11 @@ def estimate_of(stated: PartsList, posterior: Posterior) -> Estimate:
     """Return mass, centre of mass and inertia about P, and how far to trust them."""
     found = parameters(posterior, about_P, NAMES, UNITS)
     slopes = jacobian(about_P, posterior.p)
-    is_seen = all(p.observable for p in found)
-    possible = not is_seen or exists(body_of(found))
+    is_shown = all(p.observable for p in found)
+    possible = not is_shown or exists(body_of(found))
     return Estimate(
         "parts_and_swings" if stated.oscillations else "parts",
-        Outcome(tuple(reasons(stated, posterior, is_seen, possible))),
+        Outcome(tuple(reasons(stated, posterior, is_shown, possible))),
         found,
         slopes @ posterior.covariance @ slopes.T,
         possible=possible,
@@ -104,13 +105,13 @@ def observable(slopes: Floats, null: Floats) -> Bools:
 
 
 def reasons(
-    stated: PartsList, posterior: Posterior, is_seen: bool, possible: bool
+    stated: PartsList, posterior: Posterior, is_shown: bool, possible: bool
 ) -> Iterator[Reason]:
     """Yield what the estimate is made of, and what speaks against it."""
-    yield Reason(Why.PARTS_SUMMED, (), {"count": len(stated.parts)})
+    yield Reason(MassBudgetReason.PARTS_SUMMED, (), {"count": len(stated.parts)})
     if stated.oscillations:
         yield agreement(stated.oscillations, posterior)
-    if not is_seen:
+    if not is_shown:
         yield Reason(Why.PART_UNOBSERVABLE)
     if not possible:
         yield Reason(Why.IMPOSSIBLE_INERTIA)
@@ -125,8 +126,10 @@ def agreement(swings: Sequence[Oscillation], posterior: Posterior) -> Reason:
     if posterior.freedom > 0:
         chance = chi_square_chance(posterior.freedom, posterior.squares)
     if chance < RARE:
-        return Reason(Why.SWINGS_CONTRADICT, (worst.name,), numbers | {"chance": chance})
-    return Reason(Why.SWINGS_COMBINED, (worst.name,), numbers)
+        return Reason(
+            MassBudgetReason.SWINGS_CONTRADICT, (worst.name,), numbers | {"chance": chance}
+        )
+    return Reason(MassBudgetReason.SWINGS_COMBINED, (worst.name,), numbers)
 
 
 def check(swing: Oscillation, p: Floats) -> OscillationCheck:

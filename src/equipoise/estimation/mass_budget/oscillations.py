@@ -12,11 +12,10 @@ Moments about a line are linear in the moments p = (M, mu, J) about P (``part_mo
     w0^2 = (2 pi / T0)^2 + l^2                            T0 the period with the damping l
     T    = T0 / agm(1, cos(A/2))                          by gravity, amplitude A; a wire has T = T0
 
-(Young 1998 and Olsen 1996 [38 of da Silva 2021, section 3.1.2] swing the platform about orthogonal
-axes; agm is the arithmetic-geometric mean, which gives the elliptic integral.) A weight m_w at b
-adds m_w (d.d - (n.d)^2), d = b - a, to J_n and m_w d to s; a fixture adds its own inertia. By
-gravity alone a swing shows J_n and s by their ratio: the known weight, or a known centre of mass,
-sets the scale.
+(Olsen 1996 analyses oscillations about orthogonal axes: da Silva 2021 section 3.1.2. agm is the
+arithmetic-geometric mean, which gives the elliptic integral.) A weight m_w at b adds m_w (d.d -
+(n.d)^2), d = b - a, to J_n and m_w d to s; a fixture adds its own inertia. By gravity alone a swing
+shows J_n and s by their ratio: the known weight, or a known centre of mass, sets the scale.
 
 What it cannot see: the other axes, which have to be held. On a spherical bearing swings about two
 axes couple through products of inertia; there the record of the motion itself says more

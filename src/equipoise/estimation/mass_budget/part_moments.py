@@ -11,9 +11,9 @@ x = (m, c, small turn d, factor k of I, dimensions) and the diagonal variances V
 
     covariance of p = sum (dp/dx) V (dp/dx)^T
 
-so that an error of a part's mass acts on mass, centre of mass and inertia jointly. Errors of parts
-are independent of each other: one that is common, such as a drawing's origin that is not P, is not
-in it.
+(Summing parts: Olsen 1996, after da Silva 2021 section 3.1.2.) So an error of a part's mass acts on
+mass, centre of mass and inertia jointly. Errors of parts are independent of each other: one that is
+common, such as that of a drawing whose origin is not P, is not in it.
 """
 
 from collections.abc import Sequence

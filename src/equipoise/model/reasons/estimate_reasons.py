@@ -295,21 +295,6 @@ class EstimateReason(Code):
         "No mass moves in this record: there is nothing to calibrate masses by.",
     )
 
-    # Of parts and swings about known axes
-    PARTS_SUMMED = (
-        "parts_summed",
-        "{count:.0f} parts are summed; their errors are taken as independent.",
-    )
-    SWINGS_COMBINED = (
-        "swings_combined",
-        "{count:.0f} swings about known axes agree with that; {0} is off most, by {off:.1f} sd.",
-    )
-    SWINGS_CONTRADICT = (
-        "swings_contradict",
-        "But swings and parts contradict each other (chance {chance:.1g}): {0} is off most, by "
-        "{off:.1f} sd. A part, a period or a lever is wrong; do not trust the intervals.",
-    )
-
     # Of a method that cannot begin
     TOO_FEW_ROWS = "too_few_rows", "Only {rows:.0f} rows: nothing can be estimated."
     TOO_FEW_ROWS_WITHOUT_GAP = (
