@@ -50,6 +50,7 @@ ABOUT = {  # by the beginning of a name; the longest that fits counts
     "pid": {"active control"},
     "l1_adaptive": {"active control"},
     "impulse_feedback": {"active control"},
+    "parameter_adaptive": {"identification"},
     "underactuated": {"underactuated"},
     "fully_actuated": {"fully actuated"},
 }

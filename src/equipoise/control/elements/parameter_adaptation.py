@@ -37,15 +37,15 @@ from equipoise.maths.kernels.compiled import kernel
 from equipoise.maths.linalg import (
     cross,
     element_sizes,
+    inverse_spd,
     pack_symmetric,
     skew,
     symmetrise,
-    unpack_symmetric,
 )
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.testbed import Testbed
 
-J, COM = slice(0, 6), slice(6, 9)
+COM = slice(6, 9)  # of p, behind J
 SIZE = 9
 WINDOW = 20.0  # s, chosen: T; torques of air and bearing that last longer are taken for r
 FREQUENCY = 0.3  # rad/s, chosen: w_a
@@ -165,15 +165,9 @@ def informed(now: Adaptation, sample: Sample, known: Constants) -> Adaptation:
     P = now.P.copy()
     P[COM, COM] += CREEP**2 * dt * np.eye(3)
     PFt = P @ F.T
-    S = F @ PFt + known.variance / dt * np.eye(3)
-    K: Floats = np.linalg.solve(S, PFt.T).astype(np.float64, copy=False).T
+    K = PFt @ inverse_spd(F @ PFt + known.variance / dt * np.eye(3))
     p = now.p + K @ (f - F @ now.p)
     return Adaptation(p, symmetrise(P - K @ PFt.T), low, whole, slope, sample.shift, sample.t)
-
-
-def inertia_of(now: Adaptation) -> Matrix3:
-    """Return J (kg m^2)."""
-    return unpack_symmetric(now.p[J])
 
 
 def com_of(now: Adaptation) -> tuple[Vector3, Vector3]:

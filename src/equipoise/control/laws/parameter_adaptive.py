@@ -4,15 +4,15 @@
     turns   to three tilted attitudes at three headings, ROUNDS times; then to level
     last    the masses have arrived where r^ sends them
 
-The torque is that for the parameters as they are believed; they adapt by what is left of the track
-and by momentum (``parameter_adaptation``, with its Lyapunov function). Masses go to the target less
+The torque is that for the parameters as found so far; they adapt by what is left of the track and
+by momentum (``parameter_adaptation``, with its Lyapunov function). Masses go to the target less
 r^, each BEAT seconds if that changes it by more than DOUBT sd of r^: so wheels need not hold the
 offset for long. They have to hold it until the masses have met it,
 
     m g |r| < torque,     m g |r| MET < momentum            |r|: what is likely across up
 
-(Wright 2006, reference 34 of da Silva 2021, estimates the parameters of a simulator so; Slotine and
-Li 1987 and 1989 for the law. Masses that follow are Equipoise's.)
+(Wright 2006 estimates the parameters of a simulator so: da Silva 2021 section 3, reference 34.
+Slotine and Li 1987 and 1989 for the law. Masses that follow are Equipoise's.)
 """
 
 from dataclasses import dataclass, replace
@@ -154,7 +154,7 @@ LAW = Law(
         NAME,
         "Wheels or gyros track turns by a torque whose parameters, inertia and centre of mass, "
         "adapt; masses follow the centre of mass found.",
-        "Wright 2006 (da Silva 2021, reference 34); Slotine and Li 1987, 1989",
+        "Wright 2006 (da Silva 2021 section 3, reference 34); Slotine and Li 1987, 1989",
         ("masses", "momentum", "gyro", "attitude"),
         "0.3 um across up, and 1 to 2 um of the height on a deck that sags by 25 um, which it "
         "takes for stiff; torques of air and bearing that last for 20 s; drift after the end",
