@@ -98,7 +98,7 @@ def test_a_swing_that_agrees_sharpens_and_one_that_contradicts_writes_nothing(eq
     parts.write_text(whole + SWING.format(period=period(1.005)), encoding="utf-8")
     done = equipoise("inertia", parts)
     assert done.code == 0
-    assert "1 swings about known axes agree" in " ".join(done.out.split())
+    assert "Swings about known axes (1) agree" in " ".join(done.out.split())
     parts.write_text(whole + SWING.format(period=period(1.5)), encoding="utf-8")
     done = equipoise("inertia", parts, "--testbed", "sputnix", "--write", "new.toml")
     assert done.code == 1

@@ -67,7 +67,7 @@ def test_wheels_that_an_offset_fills_before_masses_meet_it_are_refused():
         LAW.begin(bed(wheels=wheels(torque=0.0005, momentum=0.4)), LEVEL)
 
 
-def test_the_inertia_is_adapted_as_far_as_the_turns_show_it():
+def test_the_inertia_is_adapted_to_what_the_turns_show_of_it():
     """Stated 5 % off: about up it is found to 1 %, across it within 3 of the sd that it states."""
     stated = replace(bed(), inertia_sd=0.05)
     wrong = replace(stated.body, inertia_P=INERTIA * [1.05, 0.95, 1.05])

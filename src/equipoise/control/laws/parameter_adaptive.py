@@ -156,8 +156,9 @@ LAW = Law(
         "adapt; masses follow the centre of mass found.",
         "Wright 2006 (da Silva 2021 section 3, reference 34); Slotine and Li 1987, 1989",
         ("masses", "momentum", "gyro", "attitude"),
-        "0.3 um across up, and 1 to 2 um of the height on a deck that sags by 25 um, which it "
-        "takes for stiff; torques of air and bearing that last for 20 s; drift after the end",
+        "0.1 um across up, and 1.2 um of the height on a deck that sags by 25 um, which it takes "
+        "for stiff; torques of air and bearing that last for 20 s; drift after the end; inertia "
+        "across up to no more than 3 %, as the turns are slow",
         "K T / J of 0.1; wheels or gyros that hold what is likely across up for 10 s, until masses "
         "have met it; an inertia stated 5 % off",
         PERIOD,

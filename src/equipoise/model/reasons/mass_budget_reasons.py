@@ -12,7 +12,7 @@ class MassBudgetReason(Code):
     )
     SWINGS_COMBINED = (
         "swings_combined",
-        "{count:.0f} swings about known axes agree with that; {0} is off most, by {off:.1f} sd.",
+        "Swings about known axes ({count:.0f}) agree with that; {0} is off most, by {off:.1f} sd.",
     )
     SWINGS_CONTRADICT = (
         "swings_contradict",
