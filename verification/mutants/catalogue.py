@@ -363,6 +363,10 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
+    ("identification/timed_swing.py", "main.frequency / small", "main.frequency * small",
+     "procedure/identification/test_timed_swing.py"),
+    ("identification/timed_swing.py", "abs(swing.shape[0])", "abs(swing.shape[1])",
+     "procedure/identification/test_timed_swing.py"),
     ("steps/joint_fit.py", 'CONSIDERED = (*GROUPS["viscous"], *DRIFT', "CONSIDERED = (*DRIFT",
      "procedure/balancing/test_undeclared_torques.py"),
     ("steps/joint_fit.py", "among((*considered, *ANOTHER))", "among(considered)",

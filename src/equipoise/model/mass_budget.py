@@ -69,6 +69,7 @@ class Oscillation:
     place: Vector3  # m, of the weight
     place_sd: float  # m
     gravity: float  # m/s^2
+    recording: str = ""  # file of which period, amplitude and decay are to be; "": as stated
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -152,3 +152,18 @@ def test_what_is_missing_is_named(equipoise, parts):
 def test_the_schema_names_the_keys(equipoise):
     schema = json.loads(equipoise("inertia", "--schema").out)
     assert "oscillation" in schema["properties"]
+
+
+def test_a_recording_shows_the_period_of_its_swing(equipoise, parts, strict_json):
+    """40 s of a swing on a wire, written as a CSV beside the parts file."""
+    t = np.arange(0, 40, 0.05)
+    half = 0.05 * np.cos(2 * np.pi * t / period(1.0)) / 2
+    rows = [f"{at:.3f},{np.cos(a):.9f},0,0,{np.sin(a):.9f}" for at, a in zip(t, half, strict=True)]
+    text = "\n".join(["time_s,q_w,q_x,q_y,q_z", *rows])
+    (parts.parent / "wire.csv").write_text(text, encoding="utf-8")
+    made = SWING.replace("period_s = {period}\nperiod_sd_s = 0.01", 'recording = "wire.csv"')
+    parts.write_text(PARTS + made, encoding="utf-8")
+    (check,) = strict_json(equipoise("inertia", parts, "--json").out)["oscillations"]
+    assert check["measured_kg_m2"] == pytest.approx(MOMENT, rel=1e-3)
+    parts.write_text(PARTS + made + "period_s = 2.0\n", encoding="utf-8")
+    assert "found both; wanted one of" in " ".join(equipoise("inertia", parts).err.split())

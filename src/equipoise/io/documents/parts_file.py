@@ -1,5 +1,6 @@
 """Parts files: TOML to parts and to swings about known axes. A unit is part of its key."""
 
+import math
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -76,7 +77,10 @@ class Oscillation(Table):
     axis: Direction = Field(description="body axes; level, unless a wire turns it back")
     axis_sd_deg: NotNegative = Field(0.5, description="one sd, chosen: by a square")
     through_mm: Triple = Field([0.0, 0.0, 0.0], description="a point of the axis, from P")
-    period_s: Positive
+    period_s: Positive | None = Field(None, description="left out where a recording shows it")
+    recording: Visible | None = Field(
+        None, description="file with the attitude of this swing, beside the parts file: its period"
+    )
     period_sd_s: Positive = Field(
         0.02, description="one sd, chosen: twenty swings, stopped by hand to 0.4 s"
     )
@@ -99,16 +103,20 @@ class Oscillation(Table):
     weight_sd_mm: NotNegative = Field(0.5, description="one sd of each component, chosen: a ruler")
 
     def record(self, gravity: float, where: str) -> model.Oscillation:
-        """Return the swing in SI."""
+        """Return the swing in SI; InputError unless its period is given once."""
+        if (self.period_s is None) == (self.recording is None):
+            found = "neither" if self.period_s is None else "both"
+            raise InputError(where, found, "one of 'period_s' and 'recording'")
         return model.Oscillation(
             self.name, unit_vector(self.axis, f"{where}.axis"), self.axis_sd_deg * DEG,
-            np.array(self.through_mm) * MM, self.period_s, self.period_sd_s,
+            np.array(self.through_mm) * MM, self.period_s or math.nan, self.period_sd_s,
             self.amplitude_deg * DEG, self.amplitude_sd_deg * DEG,
             0.0 if self.decay_s is None else 1 / self.decay_s,
             self.stiffness_N_m, self.stiffness_sd_percent * PERCENT,
             self.fixture_kg_m2, self.fixture_sd_kg_m2,
             self.weight_g * GRAM, self.weight_sd_g * GRAM if self.weight_g else 0.0,
             np.array(self.weight_mm) * MM, self.weight_sd_mm * MM, gravity,
+            self.recording or "",
         )  # fmt: skip
 
 
