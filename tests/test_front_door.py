@@ -44,7 +44,7 @@ def test_the_import_loads_no_library():
 def test_the_names_are_those_of_the_issue():
     assert set(NAMES) == {
         "read_testbed", "preset", "read_recording", "write_recording", "identify", "assess",
-        "observe", "balance", "plan", "design", "calibrate", "compare", "simulate",
+        "observe", "balance", "plan", "design", "calibrate", "compare", "simulate", "inertia",
         "SimulatedBench", "open_bench", "MassProperties", "Recording", "Estimate", "methods",
         "laws",
     }  # fmt: skip

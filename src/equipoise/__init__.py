@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from equipoise.app.api.design import design
     from equipoise.app.api.files import preset, read_recording, read_testbed, write_recording
     from equipoise.app.api.identify import identify
+    from equipoise.app.api.inertia import inertia
     from equipoise.app.api.observe import observe
     from equipoise.app.api.open_bench import open_bench
     from equipoise.app.api.plan import plan
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from equipoise.simulation.bench import SimulatedBench
 
 VERBS = ("identify", "assess", "observe", "balance", "plan", "design", "calibrate", "compare",
-         "simulate", "open_bench")  # fmt: skip
+         "simulate", "open_bench", "inertia")  # fmt: skip
 HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "read_testbed": "equipoise.app.api.files",
     "preset": "equipoise.app.api.files",
@@ -56,6 +57,7 @@ __all__ = [
     "compare",
     "design",
     "identify",
+    "inertia",
     "laws",
     "methods",
     "observe",

@@ -8,6 +8,7 @@ import pytest
 COMMANDS = (
     "demo",
     "new",
+    "inertia",
     "plan",
     "simulate",
     "inspect",

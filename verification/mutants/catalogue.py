@@ -136,6 +136,20 @@ CONTROL = _of(
      "multiply(conjugate(target), q)", "control/elements/test_attitude_pid.py"),
     ("elements/tilt_feedback.py", "gamma, 2 * ZETA * frequency * J", "gamma, ZETA * frequency * J",
      "control/elements/test_tilt_feedback.py"),
+    *(("elements/parameter_adaptation.py", old, new,
+       "control/elements/test_parameter_adaptation.py") for old, new in (
+        ("mass * skew(sample.gravity)])", "-mass * skew(sample.gravity)])"),
+        ("+ skew(w_r) @", "- skew(w_r) @"),
+        ("after.p - dt * known.coupling", "after.p + dt * known.coupling"),
+        ("K @ (f - F @ now.p)", "K @ (f + F @ now.p)"),
+        ("+ Y @ p - known.gain @ sigma", "+ Y @ p + known.gain @ sigma"),
+        ("u -= known.mass * cross", "u += known.mass * cross"),
+        ("reference.rate + LAM * e", "reference.rate - LAM * e"),
+        ("whole[:, 3] - R @ sample.momentum", "whole[:, 3] + R @ sample.momentum"),
+        ("-whole[:, :3], f", "whole[:, :3], f"),
+    )),
+    ("laws/parameter_adaptive.py", "if holds < offset", "if holds < 0",
+     "control/laws/test_parameter_adaptive.py"),
     ("elements/slew.py", "pace.acceleration) ** 0.5", "pace.acceleration)",
      "control/elements/test_slew.py"),
     ("elements/ziegler_nichols.py", "0.45 * cycle.gain", "0.6 * cycle.gain",
@@ -200,7 +214,7 @@ ASSESSMENT = _of(
      "assessment/findings/test_record_findings.py"),
 )  # fmt: skip
 
-ESTIMATION = _of(
+ESTIMATION = (*_of(
     "estimation",
     ("output_error/kernels/vector_rows.py", "(f[0] - once[0] + 0.5", "(f[0] + once[0] + 0.5",
      "estimation/output_error/kernels/test_vector_rows.py"),
@@ -290,7 +304,29 @@ ESTIMATION = _of(
      "estimation/filters/test_filter_kernels.py"),
     ("tracker/noise_level.py", "min(surprise / 3.0, BOUND) - MEAN",
      "min(surprise / 3.0, BOUND) + MEAN", "estimation/tracker/test_consistency.py"),
-)  # fmt: skip
+    ("methods/ukf_4.py", "STRAYS = (0.6, 1.8)", "STRAYS = (0.6, 1.2)",
+     "estimation/filters/test_filters.py"),
+), *_of("estimation/mass_budget", *(
+    (f"{path}.py", old, new, f"estimation/mass_budget/test_{tests}.py")
+    for path, old, new, tests in (
+        ("shapes", "BOX = (1 - np.eye(3)) / 12", "BOX = (1 - np.eye(3)) / 3", "parts"),
+        ("shapes", "[1 / 16, 1 / 16, 1 / 8]", "[1 / 16, 1 / 16, 1 / 4]", "parts"),
+        ("part_moments", "factor * axes @ own @ axes.T", "factor * axes.T @ own @ axes", "parts"),
+        ("part_moments", "- np.outer(centre, centre))", "+ np.outer(centre, centre))", "parts"),
+        ("part_moments", "return p[INERTIA] - np", "return p[INERTIA] + np", "parts"),
+        ("part_moments", "part.turn_sd * three", "0 * three", "parts"),
+        ("oscillations", "- 2 * (a @ first", "+ 2 * (a @ first", "swings"),
+        ("oscillations", "mass * (a @ a - (n @ a)", "mass * (a @ a + (n @ a)", "swings"),
+        ("oscillations", "first - mass * a + weight", "first + mass * a + weight", "swings"),
+        ("oscillations", "period * agm", "period / agm", "swings"),
+        ("oscillations", "+ swing.decay**2", "- swing.decay**2", "swings"),
+        ("oscillations", "(n @ d) ** 2) + fixture", "(n @ d) ** 2) - fixture", "swings"),
+        ("combine", "wanted = h @ unknowns - np", "wanted = h @ unknowns + np", "swings"),
+        ("combine", "np.diag(prior) + h.T @ h", "np.diag(prior) + 4 * h.T @ h", "swings"),
+        ("budget", "if chance < RARE", "if chance < 0", "swings"),
+        ("budget", "np.all(moved < SHOWS", "np.all(moved > SHOWS", "swings"),
+    )
+)))  # fmt: skip
 
 SIMULATION = _of(
     "simulation",
@@ -327,6 +363,10 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
+    ("identification/timed_swing.py", "main.frequency / small", "main.frequency * small",
+     "procedure/identification/test_timed_swing.py"),
+    ("identification/timed_swing.py", "abs(swing.shape[0])", "abs(swing.shape[1])",
+     "procedure/identification/test_timed_swing.py"),
     ("steps/joint_fit.py", 'CONSIDERED = (*GROUPS["viscous"], *DRIFT', "CONSIDERED = (*DRIFT",
      "procedure/balancing/test_undeclared_torques.py"),
     ("steps/joint_fit.py", "among((*considered, *ANOTHER))", "among(considered)",

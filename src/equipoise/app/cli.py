@@ -27,6 +27,7 @@ from equipoise.app.commands.devices import devices
 from equipoise.app.commands.emulate import emulate
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.import_ import import_
+from equipoise.app.commands.inertia import inertia
 from equipoise.app.commands.inspect import inspect
 from equipoise.app.commands.laws import laws
 from equipoise.app.commands.logbook import logbook
@@ -70,8 +71,8 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 COMMANDS = (
-    demo, new, design, plan, simulate, import_, inspect, observe, identify, calibrate, assess,
-    methods,
+    demo, new, inertia, design, plan, simulate, import_, inspect, observe, identify, calibrate,
+    assess, methods,
     balance, laws, compare, reproduce, devices, check, emulate, record, convert, repair, replay,
     track, print_board, calibrate_camera, dashboard, report,
     logbook, precompile,

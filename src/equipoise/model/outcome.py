@@ -10,6 +10,7 @@ from enum import StrEnum
 
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.implausible_reasons import ImplausibleReason
+from equipoise.model.reasons.mass_budget_reasons import MassBudgetReason
 from equipoise.model.reasons.reason import Number, Reason, Reasoned, one_reason
 
 
@@ -84,6 +85,7 @@ NOT_TRUSTWORTHY = (
     Why.SWINGS_AT_REST,
     Why.RESTS_DISAGREE,
     Why.CROSS_CHECKS_DISAGREE,
+    MassBudgetReason.SWINGS_CONTRADICT,
     Why.SENSOR_IMPLAUSIBLE,
     Why.BUDGET_SPENT,
     ImplausibleReason.INERTIA_OF_NO_BODY,

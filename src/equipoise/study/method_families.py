@@ -1,10 +1,10 @@
 """Families of methods, as the review's section 3 and Table 2 divide them, and those it has not.
 
-    least squares    batch (sections 3.1, Eqs. 7-21): every linear method, and rest positions
+    least squares    batch (section 3.1, Eqs. 8-21): every linear method, and rest positions
     recursive        the same rows one after the other (Eqs. 22-25)
-    Kalman filter    on the simplified model (Eqs. 26-32)
-    extended         Kalman filters with Jacobians (Eqs. 33-37), the tracker among them
-    unscented        Kalman filters with sigma points (Eq. 38 and what follows)
+    Kalman filter    on the simplified model (Eqs. 28-31)
+    extended         Kalman filters with Jacobians (Eqs. 32-38), the tracker among them
+    unscented        Kalman filters with sigma points (sections 3.2 and 4.1, without equations)
     whole record     maximum likelihood on all rows at once; not in the review
 
 Source: da Silva et al., A review of balancing methods for satellite simulators, 2021.

@@ -113,6 +113,7 @@ TABLE_3: dict[Printed, tuple[str, ...]] = {
         "impulse_feedback",
         "slew_and_measure",
         "momentum_buildup",
+        "parameter_adaptive",
     ),
 }
 

@@ -12,6 +12,21 @@ from tests.support import thorough
 MOVES = [(15.0, {"z1": -0.050})]
 SHORT = {"duration": 30.0, "moves": MOVES}
 LINEAR = "momentum_laboratory"
+PARTS = """name = "A block on a wire"
+
+[[part]]
+name = "block"
+shape = "box"
+mass_g = 14000
+size_mm = [500, 400, 300]
+centre_mm = [0, 0, -1]
+
+[[oscillation]]
+name = "upright"
+axis = [0, 0, 1]
+stiffness_N_m = 0.1
+period_s = 13.74
+"""
 
 
 @dataclass(frozen=True)
@@ -26,6 +41,11 @@ def briefly_planned():
     with pytest.MonkeyPatch.context() as patch:
         thorough.few_platforms(patch)
         return eq.plan("reference-table", duration=8.0, trials=2, seed=2)
+
+
+def parts_file(path):
+    path.write_text(PARTS, encoding="utf-8")
+    return path
 
 
 @pytest.fixture(scope="session")
@@ -48,6 +68,7 @@ def returned(tmp_path_factory) -> Returned:
         "compare": eq.compare(bed, methods=True, only=[LINEAR], runs=1, duration=30.0),
         "methods": eq.methods(),
         "laws": eq.laws(),
+        "inertia": eq.inertia(parts_file(path.with_name("parts.toml"))),
     }
     results["Estimate"] = results["identify"].estimate
     return Returned(path, results)

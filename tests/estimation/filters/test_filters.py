@@ -16,13 +16,17 @@ from equipoise.estimation.methods import (
     ukf_9,
     ukf_12,
 )
+from equipoise.io.testbed.presets import read_preset
+from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro
+from equipoise.study.method_record import Scene, judged_record
 from tests.oracle import mujoco_bench as oracle
+from tests.support import thorough
 from tests.support.builders import (
     COM,
     INERTIA,
@@ -132,6 +136,55 @@ def test_height_alone_is_found_where_the_rest_is_balanced(across):
         sd.append(only.sd)
     assert np.mean(np.square(z)) < 1.9
     assert np.mean(sd) < 1.5e-6 + 10 * across
+
+
+SWINGS = [(name, seed) for name in ("reference-table", "unb", "cubesat-tas", "nanosat")
+          for seed in thorough.some(range(1, 6), 2)]  # fmt: skip
+
+
+def strayed(preset, seed):
+    """How far the height goes per offset across up, times the sine of the rms tilt of a swing.
+
+    J is exact. The filter is linear in the offset: 1 um along x and along y are enough.
+    """
+    record = judged_record(Scene(read_preset(preset), 60.0, (), Options()), seed)
+    com = np.array([record.truth[name] for name in COM_NAMES])
+    six = np.array([record.truth[name] for name in INERTIA_NAMES])
+
+    def height(off):
+        body = replace(record.testbed.body, com=com - off, inertia_P=unpack_symmetric(six))
+        known = replace(
+            record.testbed, body=body, com_sd=np.array([0.0, 0.0, 1e-4]), inertia_sd=0.0
+        )
+        (only,) = estimate(ukf_4, record.recording, known).parameters
+        return only.value
+
+    exact = height(np.zeros(3))
+    slopes = [(height(1e-6 * axis) - exact) / 1e-6 for axis in np.eye(3)[:2]]
+    level = to_matrix(record.recording.attitude.values)[:, 2, :2]
+    return np.hypot(*slopes) * np.sqrt(np.mean(np.sum(level**2, axis=1)))
+
+
+def test_the_card_has_the_size_of_what_an_offset_across_up_does_to_the_height():
+    found = [strayed(*swing) for swing in SWINGS]
+    least, most = ukf_4.STRAYS
+    assert min(found) > 0.95 * least
+    assert max(found) < 1.05 * most
+    assert max(found) > 0.7 * most
+    assert min(found) < 2.0 * least
+    assert f"{least:g} to {most:g} um / sin(rms tilt)" in ukf_4.METHOD.card.cannot_see
+    at_six = np.array([least, most]) / np.sin(np.radians(6.0))
+    assert "{:.0f} to {:.0f} um at 6 deg".format(*at_six) in ukf_4.METHOD.card.cannot_see
+
+
+def test_a_height_that_is_hidden_stays_as_the_testbed_has_it_and_says_so():
+    """com across up known to 100 um: the record says nothing of com_z, which is 50 um off."""
+    record, com = walked(0)
+    body = MassProperties(MASS, np.append(com[:2], com[2] + 5e-5), unpack_symmetric(INERTIA))
+    testbed = replace(platform(gyro=True), inertia_sd=0.0, com_sd=np.full(3, 1e-4), body=body)
+    (only,) = estimate(ukf_4, record, testbed).parameters
+    assert only.value - com[2] == pytest.approx(5e-5, rel=0.3)
+    assert only.sd == pytest.approx(1e-4, rel=0.1)
 
 
 @pytest.mark.parametrize("up", [[0.0, 0, -1], [1.0, 0, 0], [0.6, 0, 0.8]])

@@ -333,7 +333,7 @@ def test_spin_about_the_vertical_alone_shows_five_of_twelve():
     ("model", "expected"), [(KF, 5), (EKF, 5), (CAMERA, 8), (REDUCED, 3)], ids=lambda x: str(x)[:0]
 )
 def test_spin_about_the_vertical_hides_the_vertical_offset(model, expected):
-    """g_x = g_y = 0 (da Silva 2021 section 4.2): one short of full, and that is com_z."""
+    """g_x = g_y = 0 (da Silva 2021 section 4.1): one short of full, and that is com_z."""
     null = unseen(model, spinning())
     assert rank(model, spinning()) == expected
     assert abs(null[model.states.index("com_z"), 0]) == pytest.approx(1.0, abs=1e-9)

@@ -29,6 +29,7 @@ KINDS = {
     "Planning": ("of_planning", "plan_views"),
     "Sizing": ("of_sizing", "design_views"),
     "Compared": ("of_comparison", "study.comparison_report"),
+    "MassBudget": ("of_mass_budget", "inertia_views"),
     "Catalogue": ("of_catalogue", ""),
 }
 PRINTED = ("blocks", "document")

@@ -32,7 +32,7 @@ from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.free_start import freely
 
 MEASURED = 60.0  # s before and after the move, chosen
-MOVE = {"x1": -10 * MM, "y1": -10 * MM, "z1": -50 * MM}  # m, the paper's section 3
+MOVE = {"x1": -10 * MM, "y1": -10 * MM, "z1": -50 * MM}  # m, the paper's section 5
 GOAL = Goal(np.array([0.0, 0.0, -100e-6]), np.array([2e-6, 2e-6, 3e-6]))
 
 

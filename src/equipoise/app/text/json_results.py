@@ -253,6 +253,24 @@ DESIGN = document(
     *fields("verdict", VERDICT, "found"),
 )
 
+# What each part contributes to the variances, and what each swing measured beside what all say.
+INERTIA = document(
+    "equipoise/inertia/1",
+    *fields("name source", TEXT, "stated"),
+    *fields("estimate", ESTIMATE),
+    *fields("inertia_C=central", many(PARAMETER)),
+    *fields("parts=shares", many(shape(
+        *fields("name", TEXT),
+        *fields("mass_kg=mass share_of_mass=of_mass share_of_com=of_com", NUMBER),
+        *fields("share_of_inertia=of_inertia", NUMBER),
+    ))),
+    *fields("oscillations=checks", many(shape(
+        *fields("name", TEXT),
+        *fields("measured_kg_m2=measured measured_sd_kg_m2=measured_sd", NUMBER),
+        *fields("expected_kg_m2=expected off_sd=off", NUMBER),
+    ))),
+)  # fmt: skip
+
 # The least sd that a record allows, beside the sd that the testbed states.
 BOUND = shape(
     *fields("name unit", TEXT),

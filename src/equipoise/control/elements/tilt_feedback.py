@@ -1,7 +1,7 @@
 """Feedback to sliding masses that levels a platform and stops its swinging (Chesi 2014, step 1).
 
 Masses give torque across gravity only. With Phi = -m [g_b x], so that gravity's torque is Phi r,
-w_p the rate across gravity and rh the estimate of r (da Silva 2021 Eqs. 39-42 with errata R20-R23:
+w_p the rate across gravity and rh the estimate of r (da Silva 2021 Eqs. 39-41 with errata R20-R23:
 the torques of gravity and of the masses, an adaptation gain gamma, |g|^2 and not |g|):
 
     J w' + w x J w = Phi r + tau_c

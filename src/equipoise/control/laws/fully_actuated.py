@@ -1,7 +1,7 @@
 """Balance with masses while wheels or gyros hold a momentum trajectory.
 
-(Kim & Agrawal 2009; da Silva 2021 section 4.2 with erratum R24: [g_b x] and not [w x].) The law of
-momentum, h stored in wheels or gyros, s the shift by masses, r + s wanted at r*:
+(Kim & Agrawal 2009; da Silva 2021 section 4.2, Eq. 42 with erratum R24: [g_b x] and not [w x].)
+The law of momentum, h stored in wheels or gyros, s the shift by masses, r + s wanted at r*:
 
     (J w)' = -w x (J w + h) - h' + m (r + s) x g_b
 
@@ -235,7 +235,7 @@ LAW = Law(
     LawCard(
         "fully_actuated",
         "Wheels or gyros lead gravity round a cone, and masses move until no torque is missing.",
-        "Kim & Agrawal 2009; da Silva 2021 section 4.2 with erratum R24",
+        "Kim & Agrawal 2009; da Silva 2021 section 4.2, Eq. 42 with erratum R24",
         ("masses", "momentum", "gyro", "attitude"),
         "the part along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
         "dJ (20 um for one inertia_sd)",

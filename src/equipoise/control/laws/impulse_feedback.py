@@ -73,7 +73,7 @@ FLAT = 0.3  # chosen: singular values below this share are the direction along g
 CARD = LawCard(
     name="impulse_feedback",
     idea="Jets hold the platform at several tilts; their impulse there measures the unbalance.",
-    source="Hatcher and Young 1968 (da Silva et al. 2021, section 5), with an attitude schedule",
+    source="Hatcher and Young 1968 (da Silva et al. 2021, section 4), with an attitude schedule",
     needs=("masses", "jets", "gyro", "attitude"),
     leaves="a steady torque of air or bearing, which it takes for unbalance; height five times "
     "less sharp than the rest",

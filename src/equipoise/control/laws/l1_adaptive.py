@@ -34,7 +34,7 @@ stable for a bounded th if ||(sE - A_m)^-1 b (1 - C)||_L1 L < 1 with L the large
 of the sampled loop. It raises InputError where one of the three fails.
 
 Only the measurements at the end determine the height (``height_adjustment``). Sources: Cao and
-Hovakimyan 2006 and 2008; for balancing Xuan 2016 and Hua 2018, by da Silva et al. 2021 section 5.
+Hovakimyan 2006 and 2008; for balancing Xuan 2016 and Hua 2018, by da Silva et al. 2021 section 4.
 """
 
 from dataclasses import dataclass, field, replace
@@ -67,7 +67,7 @@ MARGIN = 2.0  # chosen: the platform's swing may be this much faster or slower, 
 CARD = LawCard(
     name="l1_adaptive",
     idea="A predictor of tilt and rate learns the unbalance torque; masses cancel it, filtered.",
-    source="Cao and Hovakimyan 2006, 2008; Xuan 2016, Hua 2018 (da Silva et al. 2021, section 5)",
+    source="Cao and Hovakimyan 2006, 2008; Xuan 2016, Hua 2018 (da Silva et al. 2021, section 4)",
     needs=("masses", "gyro", "attitude"),
     leaves="the height, which only the measurements at the end determine, by the inertia",
     stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin "

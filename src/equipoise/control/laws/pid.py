@@ -19,7 +19,7 @@ that has been raised: the integral of a deep pendulum would destabilise a shallo
     4 measure  the height of the swinging platform (``height_adjustment``); then level again, from
                further up, and at the end a last shift to the target
 
-Source: Ziegler and Nichols 1942, and their use for balancing in da Silva et al. 2021 section 5.
+Source: Ziegler and Nichols 1942, and their use for balancing in da Silva et al. 2021 section 4.
 Their test increases the proportional gain alone until the loop just oscillates. It is impossible
 here: without damping the loop oscillates at every gain. It is done on tilt and rate together, and
 T_u is set by the masses' lag. ``begin`` raises InputError where masses cannot make the platform
@@ -70,7 +70,7 @@ Pair = tuple[tuning.Gains, tuning.Gains]  # of both axes
 CARD = LawCard(
     name="pid",
     idea="Tilt, its integral and the gyro's rate move the masses; a relay finds the gains.",
-    source="Ziegler and Nichols 1942; Astrom and Hagglund 1984; da Silva et al. 2021, section 5",
+    source="Ziegler and Nichols 1942; Astrom and Hagglund 1984; da Silva et al. 2021, section 4",
     needs=("masses", "gyro", "attitude"),
     leaves="the height, which only the measurements at the end determine, by the inertia",
     stable="hanging; sensors and fine masses up to 0.6 s late at 14 kg and steps of 0.25 s, spin "

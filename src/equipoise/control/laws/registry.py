@@ -9,6 +9,7 @@ from equipoise.control.laws import (
     impulse_feedback,
     l1_adaptive,
     momentum_buildup,
+    parameter_adaptive,
     pid,
     planar_magnetic,
     slew_and_measure,
@@ -27,5 +28,6 @@ ALL: tuple[Law[Any, Any], ...] = (
     impulse_feedback.LAW,
     fully_actuated.LAW,
     momentum_buildup.LAW,
+    parameter_adaptive.LAW,
 )
 LAWS: dict[str, Law[Any, Any]] = {law.card.name: law for law in ALL}

@@ -1,7 +1,7 @@
 """Balance with sliding masses alone: level by the printed adaptive law, swing, trim the height.
 
 The feedback is that of ``tilt_feedback`` with w_i = 0, the rounds are those of ``two_steps``
-(Chesi 2014; da Silva 2021 Eqs. 39-42; errata R20-R23; Bahu & Modenini 2020 for repeating it). Each
+(Chesi 2014; da Silva 2021 Eqs. 39-41; errata R20-R23; Bahu & Modenini 2020 for repeating it). Each
 round leaves |r_up| / (|r_up| + X), X = w_a^2 J / (m g), of the sideways offset: little once the
 height has been trimmed.
 """
@@ -17,7 +17,7 @@ LAW = Law(
         "underactuated",
         "Masses level the platform by an adaptive law; a swing then determines its height, which "
         "they trim; again until nothing is gained.",
-        "Chesi 2014; da Silva 2021 Eqs. 39-42 with errata R20-R23; Bahu & Modenini 2020",
+        "Chesi 2014; da Silva 2021 Eqs. 39-41 with errata R20-R23; Bahu & Modenini 2020",
         ("masses", "gyro", "attitude"),
         "each round leaves |r_up| / (|r_up| + w_a^2 J / (m g)) of the offset across up; spin about "
         "up; r_up to the share by which J is wrong, times what the last trim moved",

@@ -42,7 +42,7 @@ LAW = Law(
     LawCard(
         "underactuated_integral",
         "As underactuated, with an integral of the tilt: nothing is left across up.",
-        "Equipoise; Chesi 2014 for the rest, da Silva 2021 Eqs. 39-42 with errata R20-R23",
+        "Equipoise; Chesi 2014 for the rest, da Silva 2021 Eqs. 39-41 with errata R20-R23",
         ("masses", "gyro", "attitude"),
         "a motor step of the masses; spin about up; r_up as underactuated",
         "as underactuated, and 2 zeta w_a (w_a^2 + w_z^2) > w_i w_a^2 (Routh; an eighth is used)",

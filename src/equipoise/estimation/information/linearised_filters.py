@@ -7,7 +7,7 @@
     dw'/dmu = -J^-1 [g x],           dw'/dr = m dw'/dmu
     dw'/dth = J^-1 [mu x][g x],      dth' = -w x dth + dw               (attitude sought, not given)
 
-(da Silva 2021 Eqs. 33-38 with errata R14-R18; Ivanov 2021 section 4 as corrected.) w' is that of
+(da Silva 2021 Eqs. 33-38 with errata R14-R18; Ivanov 2021 Eq. 5.1 as corrected.) w' is that of
 the filter's own model: a torque that moves the platform but is not in the model must not seem
 to fix the scale. Known are the displacements of masses, momentum stored in wheels, outside
 torque, and but for the filter that seeks it the attitude. Masses are taken to carry no momentum of

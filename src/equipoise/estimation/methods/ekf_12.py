@@ -10,7 +10,7 @@ METHOD = filter_method(
         "ekf_12",
         "Euler's equation with known momentum and torque; w, J and com",
         "extended Kalman filter, analytic Jacobian",
-        "da Silva 2021 Eqs. 35-37 with errata R16-R19",
+        "da Silva 2021 Eqs. 35-38 with errata R15-R19",
         "a gyro and a camera; a known torque, momentum or move; a first guess of J and its sd",
         "scale of J and com before a known change; anything from a guess that is far off",
         "played",

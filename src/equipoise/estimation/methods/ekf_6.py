@@ -10,7 +10,7 @@ METHOD = filter_method(
         "ekf_6",
         "Euler's equation, attitude as an input; w and com",
         "extended Kalman filter; J is considered",
-        "da Silva 2021 Eqs. 32-34 with errata R14, R16, R18",
+        "da Silva 2021 Eqs. 32-34 with erratum R14",
         "a gyro and a camera; J with its sd",
         "com better than J, as free motion shows their ratio; com along gravity until it has "
         "tilted",

@@ -9,7 +9,7 @@ METHOD = Method(
         "equilibrium",
         "equilibrium points: com hangs under P at every rest of the masses",
         "least squares on directions",
-        "da Silva 2021 section 3.1 (manual balancing); long known",
+        "long known; da Silva 2021 section 3 names it",
         "a camera, and two moves to rests that are not in line",
         "inertia; anything from a single rest; useless near balance, where nothing rests",
         "rests",

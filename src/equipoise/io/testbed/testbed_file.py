@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any, cast
 
+import numpy as np
 import tomlkit
 
 from equipoise.io.files.atomic_file import write_whole
@@ -11,11 +12,18 @@ from equipoise.io.testbed.testbed import TestbedFile
 from equipoise.io.toml.read_toml import parse_toml, read_toml
 from equipoise.io.toml.table_records import keys_written
 from equipoise.io.toml.write_toml import set_key, toml_text
+from equipoise.maths.linalg import element_sizes
 from equipoise.model import testbed as model
+from equipoise.model.arrays import Matrix3
+from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import PERCENT, UM
 
 WANTED = "a testbed file (TOML); `equipoise new` writes one to start from"
 CALIBRATED = ("gain", "axis", "backlash_mm")
+REMARK = "equipoise inertia"
+LEAST_SHARE = 1e-4  # chosen: of the inertia, and an sd that is nought is none
+LEAST_COM = 1e-8  # m, chosen likewise
 
 
 def read_testbed(path: str | Path) -> Testbed:
@@ -57,6 +65,44 @@ def changes(before: model.SlidingMass, after: model.SlidingMass) -> dict[str, An
     """Return the keys of a mass that a calibration changed, as they are written."""
     old, new = keys_written(before, SlidingMass), keys_written(after, SlidingMass)
     return {key: new[key] for key in CALIBRATED if new[key] != old[key]}
+
+
+def with_body(text: str, found: Estimate, inertia_C: Matrix3, source: str) -> str:
+    """Return the text with the platform's mass, centre of mass and inertia of an estimate.
+
+    Comments and all else stay as they are. A testbed file has one relative sd for all of the
+    inertia: the greatest of the six. InputError where the masses then weigh more than the platform.
+    """
+    document = tomlkit.parse(text)
+    for key, value in body_keys(found, inertia_C).items():
+        set_key(document["platform"], key, value, REMARK)
+    made = tomlkit.dumps(document)
+    parse_testbed(made, source)
+    return made
+
+
+def body_keys(found: Estimate, inertia_C: Matrix3) -> dict[str, Any]:
+    """Return the keys of an estimated body, as they are written."""
+    mass, com_sd, six_sd = (
+        found.parameters[found.index("mass")],
+        np.sqrt(np.diag(found.covariance_of(COM))),
+        np.sqrt(np.diag(found.covariance_of(INERTIA))),
+    )
+    share = float(np.max(six_sd / element_sizes(found.inertia_P)))
+    return {
+        "mass_kg": rounded(mass.value),
+        "mass_sd_percent": rounded(mass.sd / mass.value / PERCENT),
+        "inertia_kg_m2": [[rounded(x) for x in row] for row in inertia_C],
+        "inertia_sd_percent": rounded(max(share, LEAST_SHARE) / PERCENT),
+        "about": "C",
+        "com_um": [rounded(x / UM) for x in found.com],
+        "com_sd_um": [rounded(max(x, LEAST_COM) / UM) for x in com_sd],
+    }
+
+
+def rounded(value: float) -> float:
+    """Return a number with the digits that a person wants to see."""
+    return float(f"{value:.6g}")
 
 
 def json_schema() -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """The usual manoeuvre, to compare a plan with, and the swings that are made where none was planned.
 
-That of Ivanov et al. (2021), section 3: let go a few degrees tilted, with a slight rate, and one
-known move at half time. A mass along each level rail goes a fifth of its travel, one along each
+That of Ivanov et al. (2021), sections 4 and 5: let go a few degrees tilted, with a slight rate, and
+one known move at half time. A mass along each level rail goes a fifth of its travel, one along each
 upright rail all the way down; with their masses that is (-10, -10, -50) mm.
 
 For a measurement the move is shortened to what masses can travel in a quarter of the record, and

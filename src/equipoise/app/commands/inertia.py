@@ -1,0 +1,87 @@
+"""`equipoise inertia`: mass properties from a list of parts and from swings about known axes."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.arguments.options import Flag, Json
+from equipoise.app.console.terminal import print_whole, show_paths
+from equipoise.model.errors import InputError
+
+if TYPE_CHECKING:
+    from equipoise.model.mass_budget import MassBudget
+    from equipoise.model.testbed import Testbed
+
+
+def inertia(
+    parts: Path | None = None,
+    /,
+    *,
+    testbed: str | None = None,
+    write: Path | None = None,
+    schema: Flag = False,
+    json: Json = False,
+    out: Path | None = None,
+) -> int:
+    """Sum a list of parts, and combine it with swings about known axes; every number with its sd.
+
+    Ends with 1 when no body can have these properties, when swings and parts contradict each other,
+    or when swings leave part of an unknown inertia open; then nothing is written.
+
+    Parameters
+    ----------
+    parts
+        Parts file (TOML): what floats, the masses at home among it, and how it swung.
+    testbed
+        Testbed file, or a preset's name, to write the mass properties into.
+    write
+        Testbed file to write; comments of the old one stay.
+    schema
+        Print the JSON Schema of parts files instead, for editors that check keys.
+    out
+        Folder for report and inertia.json; it shows the testbed with this body.
+    """
+    if schema:
+        return _print_schema()
+    if parts is None:
+        raise InputError("inertia", "no parts file", "a file, or --schema to see what it holds")
+    if testbed is None and (write is not None or out is not None):
+        wanted = "the testbed that these mass properties are of"
+        raise InputError("--write and --out", "no --testbed", wanted)
+    from equipoise.app.api.inertia import inertia as summed
+    from equipoise.app.arguments.checks import check_outputs
+    from equipoise.app.logbook.output import hand_over
+    from equipoise.app.views.inertia_views import output_of
+
+    check_outputs(out, write)
+    found = summed(parts)
+    bed, text = (None, "") if testbed is None else _with_body(found, testbed)
+    hand_over(output_of(found, bed), json, out)
+    if not found.is_whole:
+        return 1
+    if write is not None:
+        from equipoise.io.files.atomic_file import write_whole
+
+        write_whole(write, text)
+        show_paths([write], json)
+    return 0
+
+
+def _print_schema() -> int:
+    """Print the JSON Schema of parts files."""
+    from equipoise.app.text.json_document import dump
+    from equipoise.io.documents.parts_file import parts_schema
+
+    print_whole(dump(parts_schema()))
+    return 0
+
+
+def _with_body(found: "MassBudget", name: str) -> "tuple[Testbed, str]":
+    """Return the testbed with the mass properties found, and its text; as it is if part is open."""
+    from equipoise.app.arguments.inputs import testbed_from, testbed_text_of
+    from equipoise.io.testbed.testbed_file import parse_testbed, with_body
+
+    bed, text = testbed_from(name), testbed_text_of(name)
+    if not found.is_whole:
+        return bed, text
+    text = with_body(text, found.estimate, found.body.inertia_C, name)
+    return parse_testbed(text, name), text
