@@ -51,7 +51,8 @@ class SimulatedHands:
         """Let go, and return what was recorded until it is caught."""
         self._swings += 1
         seed = np.random.SeedSequence([self._seed, self._swings]).generate_state(1)[0]
-        bench = SimulatedBench(self._as_loaded(), int(seed))
+        known = replace(self.testbed, body=self.truth())
+        bench = SimulatedBench(self._as_loaded(known), int(seed))
         parts = [bench.read(GLANCE)]
         while bench.time < ENOUGH and not bench.touches:
             parts.append(bench.read(GLANCE))
@@ -72,6 +73,14 @@ class SimulatedHands:
         self._loading = wanted.copy()
         return self._loading
 
+    def released(self, known: Testbed) -> SimulatedBench:
+        """Return the bench of the platform as it is loaded, of which ``known`` is known.
+
+        It is the same platform, drawn with the same seed, its mass as known: weights are off by
+        little beside it, and neither the first moment nor the inertia is touched by that.
+        """
+        return SimulatedBench(self._as_loaded(known), self._seed)
+
     def truth(self) -> MassProperties:
         """Return the mass properties as the platform is really loaded."""
         load, body = self._load(), self._platform
@@ -91,8 +100,12 @@ class SimulatedHands:
                 mass, moment, inertia = mass + m, moment + m * x, inertia + parallel_axis(m, x)
         return Load(mass, moment, inertia)
 
-    def _as_loaded(self) -> Testbed:
-        """Return the testbed that a simulated bench takes for the platform as it is loaded."""
-        body, testbed = self.truth(), self.testbed
-        truth = replace(testbed.truth or own_truth(testbed), com=body.com, inertia_P=body.inertia_P)
-        return replace(testbed, body=body, truth=truth)
+    def _as_loaded(self, known: Testbed) -> Testbed:
+        """Return a testbed with the truth that makes a simulated bench of the platform as loaded.
+
+        The first moment is the true one, whatever mass is ``known``.
+        """
+        body = self.truth()
+        com = body.first_moment / known.body.mass
+        truth = replace(known.truth or own_truth(known), com=com, inertia_P=body.inertia_P)
+        return replace(known, truth=truth)

@@ -1,0 +1,58 @@
+"""Balance in two levels: by hand to within reach of the sliding masses, then by these masses.
+
+Ivanov 2021 section 1: loads are shifted by hand first, then actuators balance what is left. Hands
+aim at the target itself, and stop as soon as the masses can correct what is left for sure. So a
+person makes as few placings as needed. The masses go on from the posterior of the hands: the
+platform as loaded (``known_platform``). The known step of the weights has given it its scale.
+
+Cannot see a weight that slips after the last swing by hand: the masses' own record has to show it.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.model.errors import InputError
+from equipoise.model.hands import Hands
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.planning.sizing.reachable_set import box_about_home, reach_of
+from equipoise.procedure.balancing import balance_manually
+from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
+
+SHARE = 0.5  # of the reach
+
+
+def check(testbed: Testbed) -> None:
+    """Raise InputError for a testbed that lacks weights, sliding masses or sensors."""
+    balance_manually.check(testbed)
+    if not testbed.masses:
+        wanted = "tables [[sliding_mass]]; or by hand alone, whose weights go on to the target"
+        raise InputError(testbed.source or testbed.name, "no sliding masses", wanted)
+
+
+def within_reach(testbed: Testbed, options: HandOptions) -> HandOptions:
+    """Return the aim of the hands: what the masses can correct; theirs where these reach little.
+
+    Along an axis that no mass shifts, hands have to bring the centre of mass within the tolerance.
+    """
+    room = SHARE * box_about_home(reach_of(testbed.masses, testbed.body.mass))
+    return replace(options, tolerance=np.maximum(room, options.tolerance))
+
+
+def hands_then_masses(
+    hands: Hands, options: HandOptions, go_on: Callable[[Testbed], Iterator[Step]]
+) -> Iterator[Step]:
+    """Yield the Steps of the hands and, once they are within reach, those of ``go_on``.
+
+    ``options`` have the tolerance of the whole session. ``go_on`` takes the testbed as known then,
+    and returns the steps of the masses on its bench. The last step has the verdict.
+    """
+    check(hands.testbed)
+    known = None
+    for step in balance_by_hand(hands, within_reach(hands.testbed, options)):
+        yield step
+        known = step.known
+    if known is not None:
+        yield from go_on(known)
