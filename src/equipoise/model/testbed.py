@@ -189,8 +189,8 @@ class Testbed(Shown):
     accelerometer: Accelerometer | None = None
     sun: SunSensor | None = None
     magnetometer: Magnetometer | None = None  # of ``magnetic_field``
-    # of J_P (xx yy zz xy xz yz, kg m^2) and com (m), masses at home; not of a file: what a balancing
-    # by hand left; None: independent, as the sds above say
+    # of J_P (xx yy zz xy xz yz, kg m^2) and com (m), masses at home; not of a file: as a balancing
+    # by hand has found them; None: independent, as the sds above say
     body_covariance: Square | None = None
 
     @property

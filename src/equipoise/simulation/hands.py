@@ -28,7 +28,8 @@ class SimulatedHands:
 
     def __init__(self, testbed: Testbed, seed: int) -> None:
         self.testbed = testbed  # as stated, without any weights
-        self._seed, self._swings, self._time = seed, 0, 0.0
+        self.seed = seed  # of all that is drawn
+        self._swings, self._time = 0, 0.0
         self._platform = SimulatedBench(testbed, seed).platform.body
         rng = np.random.default_rng(np.random.SeedSequence(seed).spawn(9)[-1])
         self._box: list[list[float]] = [
@@ -41,6 +42,7 @@ class SimulatedHands:
             for p, (a, b) in zip(places, rng.normal(size=(len(places), 2)), strict=True)
         ]
         self._loading = unloaded(testbed.grids, testbed.weights)
+        self._bench: SimulatedBench | None = None  # once it is released
 
     @property
     def time(self) -> float:
@@ -50,8 +52,8 @@ class SimulatedHands:
     def swing(self) -> Recording:
         """Let go, and return what was recorded until it is caught."""
         self._swings += 1
-        seed = np.random.SeedSequence([self._seed, self._swings]).generate_state(1)[0]
-        known = replace(self.testbed, body=self.truth())
+        seed = np.random.SeedSequence([self.seed, self._swings]).generate_state(1)[0]
+        known = replace(self.testbed, body=self._loaded())
         bench = SimulatedBench(self._as_loaded(known), int(seed))
         parts = [bench.read(GLANCE)]
         while bench.time < ENOUGH and not bench.touches:
@@ -79,10 +81,14 @@ class SimulatedHands:
         It is the same platform, drawn with the same seed, its mass as known: weights are off by
         little beside it, and neither the first moment nor the inertia is touched by that.
         """
-        return SimulatedBench(self._as_loaded(known), self._seed)
+        self._bench = SimulatedBench(self._as_loaded(known), self.seed)
+        return self._bench
 
     def truth(self) -> MassProperties:
-        """Return the mass properties as the platform is really loaded."""
+        """Return the mass properties as the platform is really loaded, and its masses stand."""
+        return self._loaded() if self._bench is None else self._bench.truth()
+
+    def _loaded(self) -> MassProperties:
         load, body = self._load(), self._platform
         mass = body.mass + load.mass
         com = (body.first_moment + load.first_moment) / mass
@@ -105,7 +111,7 @@ class SimulatedHands:
 
         The first moment is the true one, whatever mass is ``known``.
         """
-        body = self.truth()
+        body, stated = self._loaded(), self.testbed
         com = body.first_moment / known.body.mass
-        truth = replace(known.truth or own_truth(known), com=com, inertia_P=body.inertia_P)
+        truth = replace(stated.truth or own_truth(stated), com=com, inertia_P=body.inertia_P)
         return replace(known, truth=truth)

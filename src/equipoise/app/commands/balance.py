@@ -24,6 +24,7 @@ from equipoise.app.commands.by_hand import (
     check_by_hand,
     is_by_hand,
 )
+from equipoise.app.commands.by_hand_then_masses import Masses, balance_then_masses
 from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, let_go, prepare
 from equipoise.app.console.terminal import announced, busy, counted_pieces
 from equipoise.model.errors import InputError
@@ -62,8 +63,9 @@ def balance(
 
     The platform is simulated, or with --bench the real one that the testbed's [hardware] declares.
     With --manual a person places weights instead of masses that move, on a real platform if a
-    --session is named. Ends with 1 when the verdict is that the platform is not balanced, with 130
-    when Ctrl-C stopped it, 143 SIGTERM, 129 SIGHUP.
+    --session is named; with --then-masses too, only until the masses can correct the rest. Ends
+    with 1 when the verdict is that the platform is not balanced, with 130 when Ctrl-C stopped it,
+    143 SIGTERM, 129 SIGHUP.
 
     Parameters
     ----------
@@ -102,11 +104,15 @@ def balance(
     check_on_bench(on_bench)
     if is_by_hand(by_hand, reading):
         others = _of_moving_masses(law, plan, until, series) + ["--bench"] * on_bench.bench
-        check_by_hand(by_hand, reading, others)
+        both = ["--plan"] * (plan is not None) + ["--series"] * (series is not None)
+        check_by_hand(by_hand, reading, both if by_hand.then_masses else others)
         from equipoise.app.runs.balancing import Goal
 
         goal, seed = Goal(*where), seed_of(seed)
-        return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
+        requested = Request(testbed, goal, seed, by_hand, reading, json, out)
+        if not by_hand.then_masses:
+            return balance_by_hand(requested)
+        return balance_then_masses(requested, Masses(law, until, searching, on_bench))
     runs, engine = _runs(series, on_bench, spreading)
     bed, seed = announced(testbed_from(testbed)), seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed).manoeuvre

@@ -60,8 +60,9 @@ def uncoupled() -> Square:
 class Prior:
     """Normal priors in physical coordinates; weight 0 means none.
 
-    They are independent, but for those of inertia and com where they are coupled. The anchor is a prior so wide that it only decides what the data leave open. It keeps the
-    search from wandering, and is taken out of the information again before that is judged.
+    They are independent, but for those of inertia and com where these are coupled. The anchor is a
+    prior so wide that it only decides what the data leave open. It keeps the search from wandering,
+    and is taken out of the information again before that is judged.
     """
 
     mean: Floats

@@ -104,10 +104,10 @@ def furthest(reach: Reach, direction: Vector3) -> float:
 def box_about_home(reach: Reach) -> Vector3:
     """Return half the sides (m) of a box about home that can be reached whole, in body axes.
 
-        s_i = f min over facets  h / (sum_i |n_i| l_i),     l_i = least reach along +-i,  f l_i = s_i
+        s = l min over facets  h / (|n| . l)
 
-    Its sides are in proportion to the reach l along each axis; along an axis outside the span it
-    has none.
+    Its sides are in proportion to l, the lesser reach either way along each axis; along an axis
+    outside the span it has none.
     """
     length = np.array([min(furthest(reach, axis), furthest(reach, -axis)) for axis in np.eye(3)])
     corner = np.abs(reach.normals) @ length

@@ -15,13 +15,18 @@ import numpy as np
 
 from equipoise.model.errors import InputError
 from equipoise.model.hands import Hands
+from equipoise.model.reasons.reason import axes_of, one_reason
+from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.planning.sizing.reachable_set import box_about_home, reach_of
 from equipoise.procedure.balancing import balance_manually
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 
-SHARE = 0.5  # of the reach
+# chosen: of the reach. The other half lets the masses go below the target first, and brake. With
+# 0.75 a person makes 1.24 placings in place of 1.48, but 3 of 25 verdicts, not 1, cannot tell.
+SHARE = 0.5
+GO_ON = one_reason(StepReason.MASSES_GO_ON)
 
 
 def check(testbed: Testbed) -> None:
@@ -50,9 +55,11 @@ def hands_then_masses(
     and returns the steps of the masses on its bench. The last step has the verdict.
     """
     check(hands.testbed)
-    known = None
-    for step in balance_by_hand(hands, within_reach(hands.testbed, options)):
-        yield step
+    coarse, known = within_reach(hands.testbed, options), None
+    aim = one_reason(StepReason.HANDS_FIRST, **axes_of("within", coarse.tolerance))
+    yield Step("control", hands.time, aim)
+    for step in balance_by_hand(hands, coarse):
         known = step.known
+        yield step if known is None else replace(step, reasons=(*step.reasons, *GO_ON))
     if known is not None:
         yield from go_on(known)

@@ -22,12 +22,16 @@ from equipoise.procedure.balancing.manual_estimate import J, Posterior, R, first
 
 
 def as_known(testbed: Testbed, posterior: Posterior) -> Testbed:
-    """Return the testbed with the platform as it is loaded; the weights are part of its body."""
+    """Return the testbed with the platform as it is loaded: the weights are part of its body.
+
+    What a simulated bench is made of is left out, as it is about the platform without them.
+    """
     body, sd = possible_body(testbed, posterior), independent_sds(posterior.covariance)
     relative = float(np.max(sd[J] / element_sizes(body.inertia_P)))
     mass_sd = testbed.mass_sd * testbed.body.mass / body.mass
     return replace(testbed, body=body, mass_sd=mass_sd, inertia_sd=relative, com_sd=sd[R],
-                   body_covariance=posterior.covariance, weights=(), grids=())  # fmt: skip
+                   body_covariance=posterior.covariance, weights=(), grids=(),
+                   truth=None)  # fmt: skip
 
 
 def independent_sds(covariance: Square) -> Floats:
