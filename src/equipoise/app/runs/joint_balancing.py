@@ -25,7 +25,7 @@ NEXT = "Leave every weight where it lies and switch the bench on. Then:"
 class InTwoLevels:
     """What was done so far, the aim of all of it, and what the masses did, once they have."""
 
-    by_hand: ByHand
+    by_hand: ByHand  # ended only where the hands gave up: else the last word is of the masses
     goal: Goal
     by_masses: Balancing | None = None
 
@@ -38,11 +38,11 @@ class InTwoLevels:
     @property
     def ended(self) -> bool:
         """Say whether the last word has been said."""
-        return self.by_masses is not None or (self.by_hand.ended and self.known is None)
+        return self.by_masses is not None or self.by_hand.ended
 
     @property
     def verdict(self) -> Verdict | None:
-        """Return the last word so far: of the masses, else of the hands."""
+        """Return the last word, if it has been said."""
         return self.by_hand.verdict if self.by_masses is None else self.by_masses.verdict
 
     @property
@@ -65,7 +65,7 @@ def run(hands: SimulatedHands, goal: Goal, limits: Limits, rounds: int, show: Sh
     whole, count = done.balancing, hand_steps(done.balancing.steps)
     first = replace(whole, goal=coarse(hands.testbed, goal, rounds), steps=whole.steps[:count],
                     truths=whole.truths[:count])  # fmt: skip
-    by_hand = replace(done, balancing=first, ended=True)
+    by_hand = replace(done, balancing=first, ended=not benches)
     if not benches:
         return InTwoLevels(by_hand, goal)
     bench = benches[0]
@@ -80,7 +80,10 @@ def resume(filed: Filed, goal: Goal, show: Show) -> tuple[InTwoLevels, list[Ints
     steps = partial(hands_then_masses, go_on=lambda _known: iter(()))
     done, placed = manual_balancing.resume(filed, goal, show, steps)
     aim = coarse(filed.testbed, goal, filed.session.max_rounds)
-    return InTwoLevels(replace(done, balancing=replace(done.balancing, goal=aim)), goal), placed
+    found = InTwoLevels(replace(done, balancing=replace(done.balancing, goal=aim)), goal)
+    if found.known is None:
+        return found, placed
+    return replace(found, by_hand=replace(found.by_hand, ended=False)), placed
 
 
 def and_then(done: InTwoLevels, bench: Bench, limits: Limits, show: Show) -> InTwoLevels:

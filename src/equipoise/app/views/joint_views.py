@@ -14,6 +14,7 @@ from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import verdict_blocks
 from equipoise.app.views import balance_views, manual_views
 from equipoise.app.views.balance_views import change_blocks, requested, wanted
+from equipoise.procedure.identification.record_courses import RecordCourses
 
 
 def output_of(done: InTwoLevels, of: dict[str, str]) -> Output:
@@ -92,14 +93,13 @@ def record_of(done: InTwoLevels, masses: Balancing, of: dict[str, str]) -> RunRe
             *estimate_sections(masses.estimate),
         ),
         origin=origin(**of),
-        figures=pictures_of(done, masses),
+        figures=pictures_of(done, masses, courses),
         step_figures=(*by_hand.values(), *by_masses.values()),
     )
 
 
-def pictures_of(done: InTwoLevels, masses: Balancing) -> list[Picture]:
+def pictures_of(done: InTwoLevels, masses: Balancing, courses: RecordCourses) -> list[Picture]:
     """Return the centre of mass by recording, and the figures of the masses."""
-    courses = masses.courses()
     return [
         *manual_views.pictures_of(done.by_hand),
         *balance_views.pictures_of_tracking(masses, courses),
