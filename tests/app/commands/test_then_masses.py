@@ -88,8 +88,8 @@ def test_a_session_goes_on_with_the_masses_from_what_its_recordings_have_shown(
         done = equipoise(*words, "--recording", file)
         assert done.code == 0
     assert "--then-masses --session s.toml --bench" in reported(done.out)
-    asked = strict_json(equipoise(*words, "--json").out)
-    assert asked["verdict"] is None
+    waiting = strict_json(equipoise(*words, "--json").out)
+    assert waiting["verdict"] is None
     done = equipoise(*words, "--bench", "--yes", "--out", "out")
     assert done.code == 0
     (known,) = benches

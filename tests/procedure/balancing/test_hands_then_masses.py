@@ -21,11 +21,7 @@ from equipoise.model.weights import unloaded
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand, caught
 from equipoise.procedure.balancing.catalogue import balanced_by
-from equipoise.procedure.balancing.hands_then_masses import (
-    SHARE,
-    hands_then_masses,
-    within_reach,
-)
+from equipoise.procedure.balancing.hands_then_masses import hands_then_masses, within_reach
 from equipoise.procedure.balancing.known_platform import as_known, independent_sds
 from equipoise.procedure.balancing.manual_estimate import (
     Posterior,
@@ -82,11 +78,11 @@ def test_what_is_handed_over_is_as_uncertain_as_it_says():
 def test_hands_stop_within_half_of_what_the_masses_reach():
     """2 x 15.6 g x 50 mm of 14.24 kg are 109.55 um along each axis; half of it is 54.8 um."""
     aim = within_reach(BED, HandOptions())
-    np.testing.assert_allclose(aim.tolerance, SHARE * 2 * 15.6e-3 * 50e-3 / 14.24, rtol=1e-12)
+    np.testing.assert_allclose(aim.tolerance, 0.5 * 2 * 15.6e-3 * 50e-3 / 14.24, rtol=1e-12)
     np.testing.assert_array_equal(aim.target, TARGET)
 
 
-def test_a_rail_that_goes_less_far_one_way_narrows_the_aim():
+def test_a_rail_that_is_shorter_one_way_narrows_the_aim():
     """Both masses along y go 50 mm one way and 20 mm the other: 0.4 of the reach counts."""
     masses = [replace(m, travel=(-0.02, 0.05)) if m.name[0] == "y" else m for m in BED.masses]
     aim, usual = (within_reach(bed, HandOptions())
@@ -99,7 +95,7 @@ def test_where_no_mass_reaches_hands_balance_within_the_tolerance():
     plane = replace(BED, masses=tuple(m for m in BED.masses if m.name[0] != "z"))
     tolerance = within_reach(plane, HandOptions()).tolerance
     assert tolerance[2] == TOLERANCE[2]
-    np.testing.assert_allclose(tolerance[:2], SHARE * 2 * 15.6e-3 * 50e-3 / 14.24, rtol=1e-12)
+    np.testing.assert_allclose(tolerance[:2], 0.5 * 2 * 15.6e-3 * 50e-3 / 14.24, rtol=1e-12)
 
 
 def test_hands_stop_sooner_than_without_masses():
@@ -221,7 +217,7 @@ class OfAnother:
 
 
 @pytest.mark.parametrize(("bed", "found"), LACKING.values(), ids=LACKING.keys())
-def test_a_testbed_that_lacks_one_level_is_told_so(bed, found):
+def test_a_testbed_that_lacks_one_level_is_refused(bed, found):
     with pytest.raises(InputError, match=found):
         next(hands_then_masses(OfAnother(bed), HandOptions(), lambda _: iter(())))
 

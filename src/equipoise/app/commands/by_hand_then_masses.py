@@ -94,11 +94,13 @@ def _a_persons(
     done, placed = resume(filed, requested.goal, shown)
     write_session(noted(filed, placed), path)
     deed = next_deed(done, filed, path, len(placed) + 1)
-    if on_bench.bench and done.known is None:
-        raise InputError("--bench", "a platform that weights have not brought within reach", deed)
     if on_bench.bench:
-        prepare(done.known, requested.goal, limits, on_bench)
-        with let_go(done.known, on_bench) as bench:
+        known = done.known
+        if known is None:
+            found = "a platform that weights have not brought within reach"
+            raise InputError("--bench", found, deed or "a session in which they have")
+        prepare(known, requested.goal, limits, on_bench)
+        with let_go(known, on_bench) as bench:
             done = and_then(done, bench, limits, shown)
     code = _code(done, {"testbed": bed.source, "session": str(path)}, requested)
     if deed and done.by_masses is None and not requested.json:
