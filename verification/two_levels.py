@@ -2,7 +2,8 @@
 
 The platforms are those of the preset `two-level`, with the centre of mass 300 um off the centre of
 rotation in any direction, as hands find it. What the hands hand over is compared with the truth
-before the masses move.
+before the masses move. It is stated rather too widely: the preset states 10 % of inertia as one sd
+where errors of up to 10 % are drawn (5.8 % rms), and a camera that may lean where it does not.
 """
 
 from collections.abc import Iterator, Sequence
@@ -30,7 +31,7 @@ from verification.result import Result, Row, Spread, at_least, at_most, between,
 
 OFF = 300 * UM
 PLACINGS, MOVES = 2, 3
-HONEST = (0.8, 1.25)  # chosen: rms error in units of its stated sd
+HONEST = (0.6, 1.25)  # chosen: rms error in units of its stated sd, see above
 OPTIONS = HandOptions()
 
 
