@@ -350,6 +350,12 @@ PROCEDURE = _of(
     ("balancing/hands_then_masses.py", "SHARE * box_about_home", "box_about_home",
      "procedure/balancing/test_hands_then_masses.py"
      "::test_hands_stop_within_half_of_what_the_masses_reach"),
+    ("balancing/hands_then_masses.py", "- MEASUREMENT - share * travel",
+     "- MEASUREMENT + share * travel", "procedure/balancing/test_hands_then_masses.py"
+     "::test_slow_masses_narrow_the_aim_to_what_they_correct_before_the_platform_tips"),
+    ("balancing/hands_then_masses.py", "fall = 2 * testbed.tilt_limit", "fall = testbed.tilt_limit",
+     "procedure/balancing/test_hands_then_masses.py"
+     "::test_slow_masses_narrow_the_aim_to_what_they_correct_before_the_platform_tips"),
     ("balancing/known_platform.py", "np.sqrt(np.abs(correlation).sum", "np.sqrt(correlation.sum",
      "procedure/balancing/test_hands_then_masses.py"
      "::test_independent_sds_cover_what_is_correlated"),

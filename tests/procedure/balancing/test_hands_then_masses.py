@@ -29,6 +29,7 @@ from equipoise.procedure.balancing.manual_estimate import (
     reloaded,
     taught,
 )
+from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.hands import SimulatedHands
 from tests.support import thorough
 from verification import two_levels
@@ -96,6 +97,28 @@ def test_where_no_mass_reaches_hands_balance_within_the_tolerance():
     tolerance = within_reach(plane, HandOptions()).tolerance
     assert tolerance[2] == TOLERANCE[2]
     np.testing.assert_allclose(tolerance[:2], 0.5 * 2 * 15.6e-3 * 50e-3 / 14.24, rtol=1e-12)
+
+
+def test_slow_masses_narrow_the_aim_to_what_they_correct_before_the_platform_tips():
+    """Masses of 0.5 mm/s: 2 s and 50 s of travel at most; the least moment is J_yy or J_xx.
+
+    Let go at a corner of the aim, level and at rest, it is not at its stop by then.
+    """
+    slow = replace(BED, masses=tuple(replace(m, speed=0.5e-3) for m in BED.masses))
+    aim, half = within_reach(slow, HandOptions()), within_reach(BED, HandOptions())
+    share = aim.tolerance / half.tolerance
+    np.testing.assert_allclose(share, share[0])
+    assert 0.05 < share[0] < 0.5
+    least = np.linalg.eigvalsh(BED.body.inertia_P)[0]
+    torque = 14.24 * 9.81 * np.linalg.norm(aim.tolerance)
+    needed = 2.0 + 50.0 * share[0]
+    assert np.sqrt(2 * np.radians(30.0) * least / torque) == pytest.approx(needed, rel=1e-6)
+    com = TARGET + aim.tolerance
+    still = replace(BED.truth, com=com, inertia_P=BED.body.inertia_P, attitude=np.zeros(3),
+                    rate=np.zeros(3))  # fmt: skip
+    bench = SimulatedBench(replace(slow, truth=still), 1)
+    bench.read(needed)
+    assert not bench.touches
 
 
 def test_hands_stop_sooner_than_without_masses():

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
+import scipy
 
 from equipoise.model.errors import InputError
 from equipoise.model.hands import Hands
@@ -21,11 +22,13 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.planning.sizing.reachable_set import box_about_home, reach_of
 from equipoise.procedure.balancing import balance_manually
+from equipoise.procedure.balancing.balance import FIRST_MEASUREMENT, MEASUREMENT
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 
 # chosen: of the reach. The other half lets the masses go below the target first, and brake. With
 # 0.75 a person makes 1.24 placings in place of 1.48, but 3 of 25 verdicts, not 1, cannot tell.
 SHARE = 0.5
+TINY = 1e-9  # m, and -: less than any step of a mass
 GO_ON = one_reason(StepReason.MASSES_GO_ON)
 
 
@@ -38,12 +41,31 @@ def check(testbed: Testbed) -> None:
 
 
 def within_reach(testbed: Testbed, options: HandOptions) -> HandOptions:
-    """Return the aim of the hands: what the masses can correct; theirs where these reach little.
+    """Return the aim of the hands: what the masses can correct, and in time.
 
     Along an axis that no mass shifts, hands have to bring the centre of mass within the tolerance.
     """
     room = SHARE * box_about_home(reach_of(testbed.masses, testbed.body.mass))
+    room *= share_in_time(testbed, float(np.linalg.norm(room)))
     return replace(options, tolerance=np.maximum(room, options.tolerance))
+
+
+def share_in_time(testbed: Testbed, off: float) -> float:
+    """Return the share f of an offset (m) that masses correct before the platform is at its stop.
+
+        sqrt(2 theta J / (m g f |off|))  >=  t0 + f T
+
+    Gravity's torque is at most m g f |off|, so a platform let go at level needs the left side at
+    least to its tilt limit theta; J is its least moment, t0 the first measurement, T the travel.
+    """
+    least = float(np.linalg.eigvalsh(testbed.body.inertia_P)[0])
+    fall = 2 * testbed.tilt_limit * least / (testbed.weight * max(off, TINY))  # s^2, of all of it
+    travel = SHARE * max(max(map(abs, mass.travel)) / mass.speed for mass in testbed.masses)
+
+    def spare(share: float) -> float:
+        return float(np.sqrt(fall / share)) - FIRST_MEASUREMENT - MEASUREMENT - share * travel
+
+    return 1.0 if spare(1.0) >= 0 else float(scipy.optimize.brentq(spare, TINY, 1.0))
 
 
 def hands_then_masses(
