@@ -63,6 +63,7 @@ from verification import (
     sudden_faults,
     tracker_honesty,
     tracker_knows,
+    two_levels,
     vector_sensors,
     verdicts,
 )
@@ -97,6 +98,7 @@ CHECKS = {
     "verdicts": Check(verdicts.measure, 500),
     "drift": Check(drift.measure, 20),
     "manual": Check(manual.measure, 200),
+    "two_levels": Check(two_levels.measure, 200),
     "long_record": Check(long_record.measure, 5),
     "long_tables": Check(long_tables.measure, 1),
     "logbook_scale": Check(logbook_scale.measure, logbook_scale.STATED),

@@ -86,6 +86,7 @@ CHANGE = SchemaChange(
         Added("*", "**.verdict.code"),
         Added("*", "**.findings.*.code"),
         Added("balance_*", "steps.*.code"),
+        Added("balance_manual", "steps.*.known"),
         Added("assess_*", "required.*.quantity"),
         Added("assess_*", "**.cross_checks"),
         *(

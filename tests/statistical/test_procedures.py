@@ -1,12 +1,17 @@
 """The claims of `make verify` about procedures, on fewer platforms."""
 
 from tests.support import thorough
-from verification import balanced, drift
+from verification import balanced, drift, two_levels
 
 
 def test_balancing_ends_within_tolerance_and_its_verdict_knows() -> None:
     """Some platforms: as many good ones as 95 % leaves in all but one of 1000 such tests."""
     assert balanced.measure(range(thorough.count(10, 3))).missed == ()
+
+
+def test_hands_and_then_masses_end_within_tolerance_and_the_verdict_knows() -> None:
+    """The same from 300 um off, with two placings of weights at most; what is handed over holds."""
+    assert two_levels.measure(range(thorough.count(20, 3))).missed == ()
 
 
 @thorough.whole

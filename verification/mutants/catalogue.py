@@ -216,6 +216,16 @@ ASSESSMENT = _of(
 
 ESTIMATION = (*_of(
     "estimation",
+    ("output_error/kernels/gauss_newton.py", "cost += 0.5 * posed.coupling",
+     "cost -= 0.5 * posed.coupling",
+     "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
+    ("output_error/kernels/gauss_newton.py", "normal[J + i, J + j] += posed",
+     "normal[J + i, J + j] -= posed",
+     "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
+    ("output_error/kernels/gauss_newton.py", "descent[J + i] += posed", "descent[J + i] -= posed",
+     "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
+    ("output_error/problem.py", "coupling=information - np.diag", "coupling=information + np.diag",
+     "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
     ("output_error/kernels/vector_rows.py", "(f[0] - once[0] + 0.5", "(f[0] + once[0] + 0.5",
      "estimation/output_error/kernels/test_vector_rows.py"),
     ("output_error/kernels/vector_rows.py", "0.5 * (one[0] + other[0])", "0.5 * one[0]",
@@ -330,6 +340,9 @@ ESTIMATION = (*_of(
 
 SIMULATION = _of(
     "simulation",
+    ("hands.py", "com = body.first_moment / known.body.mass", "com = body.com",
+     "procedure/balancing/test_hands_then_masses.py"
+     "::test_the_released_platform_is_the_one_that_was_loaded"),
     ("camera_and_gyro.py", "to_matrix(exponential(off.mounting))",
      "to_matrix(exponential(-off.mounting))", "simulation/test_vector_rows.py"),
     ("camera_and_gyro.py", "sensor.averaging * (1.0 - NODES)", "sensor.averaging * (1.0 + NODES)",
@@ -351,6 +364,10 @@ SIMULATION = _of(
 
 DESIGN = _of(
     "planning",
+    ("sizing/reachable_set.py", "corner = np.abs(reach.normals) @ length",
+     "corner = reach.normals @ length", "planning/sizing/test_reachable_set.py"),
+    ("sizing/reachable_set.py", "min(furthest(reach, axis), furthest(reach, -axis))",
+     "max(furthest(reach, axis), furthest(reach, -axis))", "planning/sizing/test_reachable_set.py"),
     ("manoeuvre/criterion.py", "slogdet(scaled)[1]) / len(size)", "slogdet(scaled)[1])",
      "planning/manoeuvre/test_manoeuvre_space.py"),
     ("manoeuvre/limit_check.py", "np.sqrt(rate / sensor.rate)", "np.sqrt(sensor.rate / rate)",
@@ -367,6 +384,24 @@ PROCEDURE = _of(
      "procedure/identification/test_timed_swing.py"),
     ("identification/timed_swing.py", "abs(swing.shape[0])", "abs(swing.shape[1])",
      "procedure/identification/test_timed_swing.py"),
+    ("balancing/hands_then_masses.py", "np.maximum(room, options.tolerance)", "room",
+     "procedure/balancing/test_hands_then_masses.py"
+     "::test_where_no_mass_reaches_hands_balance_within_the_tolerance"),
+    ("balancing/hands_then_masses.py", "SHARE * box_about_home", "box_about_home",
+     "procedure/balancing/test_hands_then_masses.py"
+     "::test_hands_stop_within_half_of_what_the_masses_reach"),
+    ("balancing/hands_then_masses.py", "- MEASUREMENT - share * travel",
+     "- MEASUREMENT + share * travel", "procedure/balancing/test_hands_then_masses.py"
+     "::test_slow_masses_narrow_the_aim_to_what_they_correct_before_the_platform_tips"),
+    ("balancing/hands_then_masses.py", "fall = 2 * testbed.tilt_limit", "fall = testbed.tilt_limit",
+     "procedure/balancing/test_hands_then_masses.py"
+     "::test_slow_masses_narrow_the_aim_to_what_they_correct_before_the_platform_tips"),
+    ("balancing/known_platform.py", "np.sqrt(np.abs(correlation).sum", "np.sqrt(correlation.sum",
+     "procedure/balancing/test_hands_then_masses.py"
+     "::test_independent_sds_cover_what_is_correlated"),
+    ("balancing/known_platform.py", "if is_possible(posterior.body):", "if True:",
+     "procedure/balancing/test_hands_then_masses.py"
+     "::test_a_mean_that_no_body_has_becomes_the_likeliest_one_that_can_be"),
     ("steps/joint_fit.py", 'CONSIDERED = (*GROUPS["viscous"], *DRIFT', "CONSIDERED = (*DRIFT",
      "procedure/balancing/test_undeclared_torques.py"),
     ("steps/joint_fit.py", "among((*considered, *ANOTHER))", "among(considered)",

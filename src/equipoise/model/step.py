@@ -9,6 +9,7 @@ from equipoise.model.move import Move
 from equipoise.model.placing import Placing
 from equipoise.model.reasons.reason import Coded, Reason
 from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 
 Kind = Literal["measurement", "estimate", "move", "place", "control", "verify", "stop"]
@@ -28,3 +29,4 @@ class Step(Coded):
     # what masses can follow from now on
     following: Following | None = field(default=None, repr=False)
     placing: Placing | None = field(default=None, repr=False)  # of weights, by hand
+    known: Testbed | None = field(default=None, repr=False)  # from now on, as loaded by hand

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.arrays import Matrix3, Square, Vector3
 from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors, nothing
 from equipoise.model.devices import (
     ControlMomentGyro,
@@ -189,6 +189,9 @@ class Testbed(Shown):
     accelerometer: Accelerometer | None = None
     sun: SunSensor | None = None
     magnetometer: Magnetometer | None = None  # of ``magnetic_field``
+    # of J_P (xx yy zz xy xz yz, kg m^2) and com (m), masses at home; not of a file: as a balancing
+    # by hand has found them; None: independent, as the sds above say
+    body_covariance: Square | None = None
 
     @property
     def weight(self) -> float:

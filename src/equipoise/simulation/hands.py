@@ -28,7 +28,8 @@ class SimulatedHands:
 
     def __init__(self, testbed: Testbed, seed: int) -> None:
         self.testbed = testbed  # as stated, without any weights
-        self._seed, self._swings, self._time = seed, 0, 0.0
+        self.seed = seed  # of all that is drawn
+        self._swings, self._time = 0, 0.0
         self._platform = SimulatedBench(testbed, seed).platform.body
         rng = np.random.default_rng(np.random.SeedSequence(seed).spawn(9)[-1])
         self._box: list[list[float]] = [
@@ -41,6 +42,7 @@ class SimulatedHands:
             for p, (a, b) in zip(places, rng.normal(size=(len(places), 2)), strict=True)
         ]
         self._loading = unloaded(testbed.grids, testbed.weights)
+        self._bench: SimulatedBench | None = None  # once it is released
 
     @property
     def time(self) -> float:
@@ -50,8 +52,9 @@ class SimulatedHands:
     def swing(self) -> Recording:
         """Let go, and return what was recorded until it is caught."""
         self._swings += 1
-        seed = np.random.SeedSequence([self._seed, self._swings]).generate_state(1)[0]
-        bench = SimulatedBench(self._as_loaded(), int(seed))
+        seed = np.random.SeedSequence([self.seed, self._swings]).generate_state(1)[0]
+        known = replace(self.testbed, body=self._loaded())
+        bench = SimulatedBench(self._as_loaded(known), int(seed))
         parts = [bench.read(GLANCE)]
         while bench.time < ENOUGH and not bench.touches:
             parts.append(bench.read(GLANCE))
@@ -72,8 +75,20 @@ class SimulatedHands:
         self._loading = wanted.copy()
         return self._loading
 
+    def released(self, known: Testbed) -> SimulatedBench:
+        """Return the bench of the platform as it is loaded, of which ``known`` is known.
+
+        It is the same platform, drawn with the same seed, its mass as known: weights are off by
+        little beside it, and neither the first moment nor the inertia is touched by that.
+        """
+        self._bench = SimulatedBench(self._as_loaded(known), self.seed)
+        return self._bench
+
     def truth(self) -> MassProperties:
-        """Return the mass properties as the platform is really loaded."""
+        """Return the mass properties as the platform is really loaded, and its masses stand."""
+        return self._loaded() if self._bench is None else self._bench.truth()
+
+    def _loaded(self) -> MassProperties:
         load, body = self._load(), self._platform
         mass = body.mass + load.mass
         com = (body.first_moment + load.first_moment) / mass
@@ -91,8 +106,12 @@ class SimulatedHands:
                 mass, moment, inertia = mass + m, moment + m * x, inertia + parallel_axis(m, x)
         return Load(mass, moment, inertia)
 
-    def _as_loaded(self) -> Testbed:
-        """Return the testbed that a simulated bench takes for the platform as it is loaded."""
-        body, testbed = self.truth(), self.testbed
-        truth = replace(testbed.truth or own_truth(testbed), com=body.com, inertia_P=body.inertia_P)
-        return replace(testbed, body=body, truth=truth)
+    def _as_loaded(self, known: Testbed) -> Testbed:
+        """Return a testbed with the truth that makes a simulated bench of the platform as loaded.
+
+        The first moment is the true one, whatever mass is ``known``.
+        """
+        body, stated = self._loaded(), self.testbed
+        com = body.first_moment / known.body.mass
+        truth = replace(stated.truth or own_truth(stated), com=com, inertia_P=body.inertia_P)
+        return replace(known, truth=truth)

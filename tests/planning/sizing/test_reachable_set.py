@@ -10,6 +10,7 @@ from scipy.spatial import ConvexHull
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.units import UM
 from equipoise.planning.sizing.reachable_set import (
+    box_about_home,
     contains,
     furthest,
     outline,
@@ -133,3 +134,28 @@ def test_rails_in_a_plane_reach_a_polygon_there():
     assert furthest(reach, Y) == pytest.approx(REACH / np.sqrt(8))
     np.testing.assert_allclose(np.abs(unreachable(reach).T), [Z], atol=1e-12)
     assert contains(reach, np.array([REACH * X, 1e-9 * Z])).tolist() == [True, False]
+
+
+def test_a_box_about_home_of_rails_at_45_degrees_has_half_the_square_s_corners():
+    """Two rails reach |x| + |y| <= sqrt(2) e: half a side of the box in it is e / sqrt(2)."""
+    reach = reach_of([mass((1, 1, 0)), mass((1, -1, 0))], TOTAL)
+    expected = REACH / np.sqrt(2)
+    np.testing.assert_allclose(box_about_home(reach), [expected, expected, 0.0], atol=1e-15)
+
+
+def test_a_box_about_home_keeps_to_the_shorter_way():
+    """Of 20 mm one way and 60 mm the other 20 mm count; at an end, nothing; no mass, no box."""
+    lame = reach_of([mass(X, travel=(-0.02, 0.06)), mass(Y), mass(Z)], TOTAL)
+    np.testing.assert_allclose(box_about_home(lame), REACH * np.array([0.4, 1.0, 1.0]))
+    still = reach_of([mass(X, travel=(0.0, 0.06)), mass(Y), mass(Z)], TOTAL)
+    np.testing.assert_allclose(box_about_home(still), REACH * np.array([0.0, 1.0, 1.0]))
+    np.testing.assert_array_equal(box_about_home(reach_of([], TOTAL)), np.zeros(3))
+
+
+def test_every_corner_of_a_box_about_home_is_reached_and_of_a_larger_one_not():
+    reach = reach_of(SKEW[:4], TOTAL)
+    half = box_about_home(reach)
+    ways = half * np.array(list(product((-1, 1), repeat=3)))
+    assert half.min() > 50e-6
+    assert contains(reach, 0.999 * ways).all()
+    assert not contains(reach, 1.001 * ways).all()

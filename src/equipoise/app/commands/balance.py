@@ -24,6 +24,7 @@ from equipoise.app.commands.by_hand import (
     check_by_hand,
     is_by_hand,
 )
+from equipoise.app.commands.by_hand_then_masses import Masses, balance_then_masses
 from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, let_go, prepare
 from equipoise.app.console.terminal import announced, busy, counted_pieces
 from equipoise.model.errors import InputError
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from equipoise.model.arrays import Vector3
     from equipoise.model.testbed import Testbed
 
+NOT_BEGUN_BY_HAND = ("--plan", "--series")
 Until = tuple[int | None, float | None, float]  # moves, s, s of holding
 
 
@@ -62,8 +64,9 @@ def balance(
 
     The platform is simulated, or with --bench the real one that the testbed's [hardware] declares.
     With --manual a person places weights instead of masses that move, on a real platform if a
-    --session is named. Ends with 1 when the verdict is that the platform is not balanced, with 130
-    when Ctrl-C stopped it, 143 SIGTERM, 129 SIGHUP.
+    --session is named; with --then-masses too, only until the masses can correct the rest. Ends
+    with 1 when the verdict is that the platform is not balanced, with 130 when Ctrl-C stopped it,
+    143 SIGTERM, 129 SIGHUP.
 
     Parameters
     ----------
@@ -101,12 +104,11 @@ def balance(
     until = _until(max_moves, max_time_s, hold_min)
     check_on_bench(on_bench)
     if is_by_hand(by_hand, reading):
-        others = _of_moving_masses(law, plan, until, series) + ["--bench"] * on_bench.bench
-        check_by_hand(by_hand, reading, others)
         from equipoise.app.runs.balancing import Goal
 
-        goal, seed = Goal(*where), seed_of(seed)
-        return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
+        others = _of_moving_masses(law, plan, until, series)
+        requested = Request(testbed, Goal(*where), seed_of(seed), by_hand, reading, json, out)
+        return _by_hand(requested, others, Masses(law, until, searching, on_bench))
     runs, engine = _runs(series, on_bench, spreading)
     bed, seed = announced(testbed_from(testbed)), seed_of(seed)
     planned = None if plan is None else plan_from(plan, bed).manoeuvre
@@ -125,6 +127,15 @@ def balance(
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
     hand_over_run(output_of(done), json, out, bed.name)
     return done.stopped_with or (0 if done.verdict.passed else 1)
+
+
+def _by_hand(requested: Request, others: list[str], masses: Masses) -> int:
+    """Balance by hand alone, or by hand first; ``others`` are options given of moving masses."""
+    both = requested.by.then_masses
+    left = [name for name in others if name in NOT_BEGUN_BY_HAND or not both]
+    alone = ["--bench"] * (masses.on_bench.bench and not both)
+    check_by_hand(requested.by, requested.reading, left + alone)
+    return balance_then_masses(requested, masses) if both else balance_by_hand(requested)
 
 
 def _runs(

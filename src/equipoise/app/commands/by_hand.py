@@ -11,7 +11,7 @@ from equipoise.app.console.terminal import announced, busy
 
 if TYPE_CHECKING:
     from equipoise.app.runs.balancing import Goal
-    from equipoise.app.runs.manual_balancing import ByHand
+    from equipoise.app.runs.manual_balancing import ByHand, Filed
     from equipoise.model.testbed import Testbed
 
 
@@ -31,12 +31,17 @@ class Manual:
         The next free swing of that session, as CSV or Parquet.
     max_rounds
         Placings of weights before giving up.
+    then_masses
+        For a testbed with weights and sliding masses: a person places weights only until the masses
+        can correct the rest, then they do, by --law. In a --session the masses go on with --bench,
+        from what its recordings have shown; without one all of it is simulated.
     """
 
     manual: Flag = False
     session: Path | None = None
     recording: str | None = None
     max_rounds: Whole = 4
+    then_masses: Flag = False
 
 
 MOVED = Manual()
@@ -57,7 +62,8 @@ class Request:
 
 def is_by_hand(by: Manual, reading: Reading) -> bool:
     """Say whether any option is for a balancing by hand."""
-    return bool(by.manual or by.session or by.recording or reading != WHOLE)
+    given = by.manual or by.session or by.recording or by.then_masses
+    return bool(given or reading != WHOLE)
 
 
 def check_by_hand(by: Manual, reading: Reading, others: list[str]) -> None:
@@ -70,6 +76,9 @@ def check_by_hand(by: Manual, reading: Reading, others: list[str]) -> None:
         raise InputError("balance", "how to read a recording, but none", "--recording FILE")
     if by.recording is not None and by.session is None:
         raise InputError("--recording", "no --session", "the session's file, --session FILE")
+    if others and by.then_masses:
+        wanted = "one of them: a person places weights first"
+        raise InputError(", ".join(others), "--then-masses", wanted)
     if others:
         raise InputError(", ".join(others), "--manual", "one of them: nothing moves by itself")
 
@@ -99,31 +108,34 @@ def balance_by_hand(requested: Request) -> int:
 def _a_persons(requested: Request, path: Path, bed: "Testbed", rounds: int) -> int:
     """Take the next recording of a session, and say what to do next."""
     from equipoise.app.console.rich_blocks import show
-    from equipoise.app.runs.manual_balancing import (
-        begun,
-        next_deed,
-        noted,
-        opened,
-        resume,
-        with_recording,
-    )
+    from equipoise.app.runs.manual_balancing import next_deed, noted, resume
     from equipoise.app.runs.terminal_waiting import show_step
     from equipoise.app.text.blocks import Paragraph
-    from equipoise.io.documents.manual_session import read_session, write_session
-    from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.documents.manual_session import write_session
 
-    check_writable(path)
-    filed = begun(requested.testbed, bed, requested.goal, rounds)
-    if path.exists():
-        filed = opened(read_session(path), bed, filed.session, str(path))
-    if requested.by.recording is not None:
-        filed = with_recording(filed, requested.by.recording, requested.reading)
+    filed = filed_session(requested, path, bed, rounds)
     done, placed = resume(filed, requested.goal, None if requested.json else show_step)
     write_session(noted(filed, placed), path)
     code = _code(done, {"testbed": bed.source, "session": str(path)}, requested)
     if not done.ended and not requested.json:
-        show((Paragraph(next_deed(requested.testbed, path, len(placed) + 1)),))
+        show((Paragraph(next_deed(filed, path, len(placed) + 1)),))
     return code
+
+
+def filed_session(requested: Request, path: Path, bed: "Testbed", rounds: int) -> "Filed":
+    """Return a session, begun or as it is in its file, with the recording that is new."""
+    from equipoise.app.runs.manual_balancing import begun, opened, with_recording
+    from equipoise.io.documents.manual_session import read_session
+    from equipoise.io.files.atomic_file import check_writable
+
+    check_writable(path)
+    by = requested.by
+    filed = begun(requested.testbed, bed, requested.goal, rounds, by.then_masses)
+    if path.exists():
+        filed = opened(read_session(path), bed, filed.session, str(path))
+    if by.recording is None:
+        return filed
+    return with_recording(filed, by.recording, requested.reading)
 
 
 def _code(done: "ByHand", of: dict[str, str], requested: Request) -> int:

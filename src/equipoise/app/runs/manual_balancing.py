@@ -15,7 +15,7 @@ from equipoise.io.documents.manual_session import Piles, Round, Session
 from equipoise.io.toml.write_toml import as_written
 from equipoise.model.arrays import Ints
 from equipoise.model.errors import InputError
-from equipoise.model.hands import Awaited
+from equipoise.model.hands import Awaited, Hands
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.placing import Placing
 from equipoise.model.recording import Recording
@@ -28,6 +28,7 @@ from equipoise.procedure.identification.record_courses import RecordCourses, ste
 from equipoise.simulation.hands import SimulatedHands
 
 Show = Callable[[Step], None] | None
+Procedure = Callable[[Hands, HandOptions], Iterator[Step]]
 LET_GO = (
     "Hold the platform still and about level, start to record, let go, and catch it at the tilt "
     "limit or after a minute. Leave out what your hands did (--from-s, --to-s). Then:"
@@ -99,22 +100,30 @@ def options_of(goal: Goal, rounds: int) -> HandOptions:
     return HandOptions(goal.target, goal.tolerance, rounds)
 
 
-def run(hands: SimulatedHands, goal: Goal, rounds: int, show: Show) -> ByHand:
+def run(
+    hands: SimulatedHands,
+    goal: Goal,
+    rounds: int,
+    show: Show,
+    procedure: Procedure = balance_by_hand,
+) -> ByHand:
     """Balance a simulated platform, show each step as it comes."""
     before, truths = hands.truth(), list[MassProperties]()
     steps: list[Step] = []
-    procedure = watched(balance_by_hand(hands, options_of(goal, rounds)), "balancing")
-    for step in shown(procedure, show):
+    awaited = watched(procedure(hands, options_of(goal, rounds)), "balancing")
+    for step in shown(awaited, show):
         steps.append(step)
         truths.append(hands.truth())
     return summary(hands, goal, steps, before, truths)
 
 
-def resume(filed: Filed, goal: Goal, show: Show) -> tuple[ByHand, list[Ints]]:
+def resume(
+    filed: Filed, goal: Goal, show: Show, procedure: Procedure = balance_by_hand
+) -> tuple[ByHand, list[Ints]]:
     """Play a session back as far as it has come; return it, and what lies where since."""
     hands = FiledHands(filed.testbed, filed.recordings, filed.placed)
-    procedure = balance_by_hand(hands, options_of(goal, filed.session.max_rounds))
-    steps = list(shown(until_awaited(watched(procedure, "balancing")), show))
+    awaited = procedure(hands, options_of(goal, filed.session.max_rounds))
+    steps = list(shown(until_awaited(watched(awaited, "balancing")), show))
     if hands.swings < len(filed.recordings):
         wanted = f"no recording after the verdict, which came with number {hands.swings}"
         raise InputError("--recording", f"number {len(filed.recordings)}", wanted)
@@ -145,17 +154,17 @@ def summary(
     return ByHand(done, placings, hands.time, ended)
 
 
-def begun(testbed: str, bed: Testbed, goal: Goal, rounds: int) -> Filed:
+def begun(testbed: str, bed: Testbed, goal: Goal, rounds: int, then_masses: bool) -> Filed:
     """Return a new session."""
     target, tolerance = as_written(goal.target, UM), as_written(goal.tolerance, UM)
     session = Session(testbed=testbed, target_um=target, tolerance_um=tolerance,
-                      max_rounds=rounds, round=[])  # fmt: skip
+                      max_rounds=rounds, then_masses=then_masses, round=[])  # fmt: skip
     return Filed(session, bed, (), ())
 
 
 def opened(session: Session, bed: Testbed, requested: Session, where: str) -> Filed:
     """Return a session with its recordings; InputError if it was begun with something else."""
-    for key in ("testbed", "target_um", "tolerance_um", "max_rounds"):
+    for key in ("testbed", "target_um", "tolerance_um", "max_rounds", "then_masses"):
         was, now = getattr(session, key), getattr(requested, key)
         if was != now:
             raise InputError(f"{where}: {key}", str(now), f"{was}, with which it was begun")
@@ -194,11 +203,16 @@ def with_recording(filed: Filed, file: str, reading: Reading) -> Filed:
     return Filed(session, filed.testbed, [*filed.recordings, recording], [*filed.placed, None])
 
 
-def next_deed(testbed: str, session: Path, number: int) -> str:
+def next_deed(filed: Filed, session: Path, number: int) -> str:
     """Return what a person has to do next."""
-    words = ["equipoise", "balance", testbed, "--manual", "--session", str(session)]
-    command = shlex.join([*words, "--recording", f"run{number}.csv"])
-    return f"{LET_GO}\n  {command}"
+    return f"{LET_GO}\n  {command_of(filed, session, '--recording', f'run{number}.csv')}"
+
+
+def command_of(filed: Filed, session: Path, *more: str) -> str:
+    """Return the command by which a session goes on."""
+    words = ["equipoise", "balance", filed.session.testbed, "--manual"]
+    words += ["--then-masses"] * filed.session.then_masses
+    return shlex.join([*words, "--session", str(session), *more])
 
 
 def noted(filed: Filed, placed: Sequence[Ints]) -> Session:

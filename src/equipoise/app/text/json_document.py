@@ -172,6 +172,14 @@ MOVE = shape(
 # The step's sentence says what goes where.
 PLACING = shape(*fields("handled", COUNT), *PREDICTED)
 
+# A platform as it is loaded by hand; the covariance is of J_P xx yy zz xy xz yz and com x y z.
+KNOWN = shape(
+    *fields("mass_kg=mass", NUMBER, "body"),
+    *fields("com_m=com", VECTOR, "body"),
+    *fields("inertia_P_kg_m2=inertia_P", MATRIX, "body"),
+    *fields("covariance=body_covariance", MATRIX),
+)
+
 STEP = shape(
     *fields("kind code", TEXT),
     *fields("time_s=time", NUMBER),
@@ -181,6 +189,7 @@ STEP = shape(
     *fields("move", MOVE, optional=True),
     *fields("placing", PLACING, optional=True),
     *fields("verdict", VERDICT, optional=True),
+    *fields("known", KNOWN, optional=True),
 )
 
 TRUTH = shape(

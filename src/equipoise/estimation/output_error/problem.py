@@ -1,6 +1,6 @@
 """A recording as a least-squares problem: residuals in units of their noise, and priors."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -33,8 +33,8 @@ from equipoise.estimation.parameters.fit_parameters import (
     term_sizes,
 )
 from equipoise.estimation.search_budget import UNLIMITED, Budget
-from equipoise.maths.linalg import element_sizes
-from equipoise.model.arrays import Floats, Ints, Series1, Vector3
+from equipoise.maths.linalg import element_sizes, inverse_spd
+from equipoise.model.arrays import Floats, Ints, Series1, Square, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.sensor_terms import GYRO_CLOCK
 from equipoise.model.testbed import Testbed
@@ -51,18 +51,25 @@ THERMAL = GROUPS["thermal"]
 NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
 
 
+def uncoupled() -> Square:
+    """Return the coupling of priors that are independent."""
+    return np.zeros((0, 0))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Prior:
-    """Independent normal priors in physical coordinates; weight 0 means none.
+    """Normal priors in physical coordinates; weight 0 means none.
 
-    The anchor is a prior so wide that it only decides what the data leave open. It keeps the
-    search from wandering, and is taken out of the information again before that is judged.
+    They are independent, but for those of inertia and com where these are coupled. The anchor is a
+    prior so wide that it only decides what the data leave open. It keeps the search from wandering,
+    and is taken out of the information again before that is judged.
     """
 
     mean: Floats
     weight: Floats  # 1 / sd^2
     anchor: Floats  # 1 / sd^2, part of ``weight``
     held: NDArray[np.bool_]  # coordinates that do not move
+    coupling: Square = field(default_factory=uncoupled)  # of CORE, beside ``weight``; (0, 0): none
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -120,6 +127,16 @@ def prior_of(
     anchor = anchors(testbed, layout, torque_anchor)
     held = np.array([name in hold for name in names])
     return Prior(mean, sd**-2 + anchor, anchor, held)
+
+
+def with_body_covariance(prior: Prior, covariance: Square) -> Prior:
+    """Return a prior whose inertia and com have this covariance P, and are coupled by it.
+
+    Its information P^-1 is ``weight`` on the diagonal, less the anchor, and ``coupling`` beside it.
+    """
+    information, weight = inverse_spd(covariance), prior.weight.copy()
+    weight[CORE] = prior.anchor[CORE] + np.diag(information)
+    return replace(prior, weight=weight, coupling=information - np.diag(np.diag(information)))
 
 
 def with_typical_torques(prior: Prior, layout: Layout, names: tuple[str, ...]) -> Prior:
@@ -310,7 +327,7 @@ def posed(problem: Problem) -> Posed:
     cuts = cuts_of(problem.jumps, line.t, problem.layout)
     return Posed(problem.mass, problem.gravity, stacked(problem.maps), line.t, line.known,
                  line.owners, problem.columns, problem.observed, problem.limit, prior.mean,
-                 prior.weight, prior.held, problem.layout.slots,
+                 prior.weight, prior.coupling, prior.held, problem.layout.slots,
                  cuts, parts_of(line, cuts.nodes, problem.columns))  # fmt: skip
 
 

@@ -49,6 +49,7 @@ from equipoise.estimation.output_error.problem import (
     longest_step,
     pose,
     prior_of,
+    with_body_covariance,
     with_typical_torques,
 )
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump
@@ -158,6 +159,8 @@ def problem_of(
     scale_open = is_scale_open(recording, testbed, params)
     hold = held_names(recording, testbed, params)
     prior = prior_of(testbed, errors, layout, params.use_prior, hold, torque_anchor)
+    if params.use_prior and testbed.body_covariance is not None:
+        prior = with_body_covariance(prior, testbed.body_covariance)
     if params.typical:
         prior = with_typical_torques(prior, layout, params.typical)
     limit = HUBER if params.robust else 0.0

@@ -51,6 +51,7 @@ class Session(Table):
     target_um: Triple
     tolerance_um: Triple
     max_rounds: Annotated[int, Field(ge=1)]
+    then_masses: bool = False
     round: list[Round] = Field([])
 
 

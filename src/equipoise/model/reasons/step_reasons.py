@@ -68,6 +68,12 @@ class StepReason(Code):
         "target_out_of_reach",
         "Stock and places do not reach the target along {names}.",
     )
+    HANDS_FIRST = (
+        "hands_first",
+        "By hand to within ({within_x:um .0f}, {within_y:um .0f}, {within_z:um .0f}) um of the "
+        "target first; the sliding masses can correct as much.",
+    )
+    MASSES_GO_ON = "masses_go_on", "The sliding masses can correct the rest."
     WEIGHTS_LIE = "weights_lie", "{weights:.0f} weights lie on {places:.0f} places."
 
     # Why a procedure ends

@@ -101,6 +101,20 @@ def furthest(reach: Reach, direction: Vector3) -> float:
     return float(np.min(reach.heights[out] / towards[out]))
 
 
+def box_about_home(reach: Reach) -> Vector3:
+    """Return half the sides (m) of a box about home that can be reached whole, in body axes.
+
+        s = l min over facets  h / (|n| . l)
+
+    Its sides are in proportion to l, the lesser reach either way along each axis; along an axis
+    outside the span it has none.
+    """
+    length = np.array([min(furthest(reach, axis), furthest(reach, -axis)) for axis in np.eye(3)])
+    corner = np.abs(reach.normals) @ length
+    out = corner > FLAT * length.max()
+    return length * float(np.min(reach.heights[out] / corner[out], initial=1.0))
+
+
 def tolerance(reach: Reach) -> float:
     """Return the largest offset (m) that can be corrected whatever its direction in the span."""
     return float(np.min(reach.heights)) if reach.rank else 0.0

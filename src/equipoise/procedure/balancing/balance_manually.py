@@ -31,6 +31,7 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.model.weights import places_of, unloaded
+from equipoise.procedure.balancing.known_platform import as_known
 from equipoise.procedure.balancing.manual_estimate import (
     Posterior,
     alone,
@@ -81,7 +82,8 @@ def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
         posterior, verdict = observed.posterior, verdict_on(observed, options)
         yield estimate_step(hands, observed, fresh)
         if verdict.passed or left == 0:
-            yield final_step(hands, verdict, fresh, loading)
+            known = as_known(hands.testbed, posterior) if verdict.passed else None
+            yield replace(final_step(hands, verdict, fresh, loading), known=known)
             return
         placing = planned(testbed, posterior, loading, options)
         yield Step("place", hands.time, requested_of(placing, testbed, options), placing=placing)

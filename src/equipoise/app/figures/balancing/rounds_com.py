@@ -27,7 +27,8 @@ def draw(story: Story) -> Figure:
     for i, axes in enumerate(column):
         near = story.tolerance[i] / UM
         axes.set_yscale("symlog", linthresh=near)
-        axes.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
+        ticks = [tick for tick in TICKS if tick == 0 or abs(tick) >= near]
+        axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
         mark_story(axes, i, off, "tolerance")
         most = max(float(np.abs(com[i]) + BAND * sd[i]) for _, com, sd in off.measurements) / UM
         axes.set_ylim(-3 * max(most, near), 3 * max(most, near))

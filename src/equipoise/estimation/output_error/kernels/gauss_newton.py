@@ -3,6 +3,8 @@
     cost = 1/2 sum |e|^2 + 1/2 sum weight (mean - x)^2,      A = S^T S + weight,
     b = S^T e + weight (mean - x)
 
+and with priors of inertia and com that are coupled, weight + coupling in place of weight,
+
 in physical coordinates x, data by one pass over the record (``record_pass``). A held
 coordinate has no row and no column in A but its own, and does not move.
 
@@ -24,6 +26,7 @@ from equipoise.estimation.output_error.kernels.record_pass import (
 )
 from equipoise.estimation.output_error.kernels.segments import Chain, chain_for, condense, follow
 from equipoise.estimation.parameters.retraction import (
+    J,
     StepWork,
     coordinates_of,
     possible_step,
@@ -55,6 +58,10 @@ def prior_cost(posed: Posed, x: Floats) -> float:
     for k in range(x.shape[0]):
         off = posed.mean[k] - x[k]
         cost += 0.5 * posed.weight[k] * off * off
+    for i in range(posed.coupling.shape[0]):
+        for j in range(posed.coupling.shape[0]):
+            off, other = posed.mean[J + i] - x[J + i], posed.mean[J + j] - x[J + j]
+            cost += 0.5 * posed.coupling[i, j] * off * other
     return cost
 
 
@@ -65,6 +72,10 @@ def add_priors(posed: Posed, x: Floats, chain: Chain) -> None:
     for k in range(n):
         normal[k, k] += posed.weight[k]
         descent[k] += posed.weight[k] * (posed.mean[k] - x[k])
+    for i in range(posed.coupling.shape[0]):
+        for j in range(posed.coupling.shape[0]):
+            normal[J + i, J + j] += posed.coupling[i, j]
+            descent[J + i] += posed.coupling[i, j] * (posed.mean[J + j] - x[J + j])
     for k in range(n):
         if posed.held[k]:
             for j in range(n):

@@ -89,8 +89,8 @@ def observing(posed: Posed, attitude: Floats, rate: Floats) -> Posed:
     """Return the problem with other measurements at the same times."""
     own = measured(posed.observed, attitude, rate)
     return Posed(posed.mass, posed.gravity, posed.maps, posed.t, posed.known, posed.owners,
-                 posed.columns, own, posed.limit, posed.mean, posed.weight, posed.held,
-                 posed.slots, posed.cuts, posed.parts)  # fmt: skip
+                 posed.columns, own, posed.limit, posed.mean, posed.weight, posed.coupling,
+                 posed.held, posed.slots, posed.cuts, posed.parts)  # fmt: skip
 
 
 @part

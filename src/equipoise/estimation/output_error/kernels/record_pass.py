@@ -69,6 +69,7 @@ class Posed(NamedTuple):
     limit: float  # Huber's, in sd; 0: none
     mean: Floats  # of the priors
     weight: Floats
+    coupling: Floats  # (9, 9) of J_P and com beside the weights; (0, 0): none
     held: NDArray[np.bool_]
     slots: Ints  # where a point keeps each coordinate
     cuts: Cuts
