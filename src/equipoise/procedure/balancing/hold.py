@@ -14,7 +14,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import displacements_for, shift_by
 from equipoise.estimation.tracker import tracker
-from equipoise.estimation.tracker.predict_correct import COM
+from equipoise.estimation.tracker.predict_correct import COM, DRIFTING
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
@@ -28,7 +28,7 @@ from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.procedure.balancing.hold_verdict import Measured, verdict_on
-from equipoise.procedure.steps.joint_fit import Knowledge
+from equipoise.procedure.steps.joint_fit import DRIFT, Knowledge
 from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
 from equipoise.procedure.steps.sampler import last_row
 from equipoise.procedure.steps.tilt_guard import tilted
@@ -42,6 +42,9 @@ ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considere
 PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
 WIDE = 0.6  # of the tilt limit: a swing that corrections should calm
 GAIN = 0.1  # of the tolerance: the least improvement of the worst axis by a move
+WARMING = 1e-8  # m/s, chosen: by how much a drift may differ from that before the hold
+DRIFT_WALK = 5e-10  # m/s/sqrt(s), chosen: 1 um/min in half an hour
+COM_WALK = 5e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,9 +86,16 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
     shift = shift_by(testbed, knowledge.displacement)
     t = float(knowledge.fitted.problem.line.t[-1])
     inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
-    covariance = knowledge.estimate.covariance_of((*knowledge.standing, *INERTIA))
-    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, covariance)
-    return replace(tracker.first_state(t, q, testbed, posterior), rate=rate)
+    estimate, known = knowledge.estimate, (*knowledge.standing, *INERTIA)
+    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, estimate.covariance_of(known))
+    state = tracker.first_state(t, q, testbed, posterior)
+    drift, covariance = np.zeros(3), state.covariance.copy()
+    if estimate.has(DRIFT[0]):
+        drift, every = estimate.values(DRIFT), np.ix_(DRIFTING, DRIFTING)
+        covariance[every] = estimate.covariance_of((*known, *DRIFT))
+    for k in DRIFTING[-3:]:
+        covariance[k, k] += WARMING**2
+    return replace(state, rate=rate, drift=drift, covariance=covariance)
 
 
 def standing(state: tracker.State, testbed: Testbed, displacement: Floats) -> Measured:
@@ -153,7 +163,8 @@ def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed)
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
     """Yield a move whenever one is made, and a verdict at the end."""
     testbed, end = bench.testbed, bench.time + options.duration
-    params = tracker.Params(torque=without_drift(knowledge.fitted.point.torque))
+    torque = without_drift(knowledge.fitted.point.torque)
+    params = tracker.Params(torque=torque, com_walk=COM_WALK, drift_walk=DRIFT_WALK)
     state, displacement = first_posterior(knowledge, testbed), knowledge.displacement
     course = [standing(state, testbed, displacement)]
     while bench.time < end - 1e-9:
