@@ -29,7 +29,9 @@ def sample_at(t):
 
 def estimated(com_um):
     com = tuple(Parameter(n, "m", v * UM, UM) for n, v in zip(COM, com_um, strict=True))
-    return Estimate("ekf_9", outcome(EstimateReason.FILTERED, innovation=1.0), com, np.eye(3) * UM**2)
+    return Estimate(
+        "ekf_9", outcome(EstimateReason.FILTERED, innovation=1.0), com, np.eye(3) * UM**2
+    )
 
 
 def carried(com_um):
@@ -73,7 +75,7 @@ def test_a_filter_that_shows_no_com_ends_it_and_says_why():
 
 
 def test_a_testbed_without_masses_is_refused():
-    with pytest.raises(InputError, match="ivanov_25s.*sliding masses"):
+    with pytest.raises(InputError, match=r"ivanov_25s.*sliding masses"):
         ivanov_25s.begin(replace(read_preset("sputnix"), masses=()), TARGET)
 
 

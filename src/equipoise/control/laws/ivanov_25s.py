@@ -25,6 +25,7 @@ from equipoise.model.reasons.law_reasons import LawReason
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
 
+METHOD = "ekf_9"
 EVERY, MOVES = 25.0, 4  # s and times, as printed
 PERIOD = 1.0  # s, chosen: between looks at the tilt; five rows of the camera
 ARRIVAL = 15.0  # s, chosen: for the last move, as masses pass their whole travel in ten
@@ -74,7 +75,8 @@ def step(state: State, sample: Sample | Estimate, target: Vector3) -> tuple[Stat
         return state, Command(shift=state.shift, finished=state.finished)
     if left > PERIOD * 1.5:
         return state, Command(shift=state.shift)
-    return state, Command(measurement=Measurement(max(left, PERIOD / 2), "ekf_9", since=state.began))
+    filtered = Measurement(max(left, PERIOD / 2), METHOD, since=state.began)
+    return state, Command(measurement=filtered)
 
 
 LAW = Law(

@@ -28,6 +28,7 @@ from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints, Six, Triple
 
 COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
+RATE_OF_COM = slice(DRIFT, SIZE)  # v
 DRIFTING = (*range(6, 15), *range(DRIFT, SIZE))  # r, J and v
 
 
