@@ -63,6 +63,7 @@ from verification import (
     sudden_faults,
     tracker_honesty,
     tracker_knows,
+    undeclared_drift,
     vector_sensors,
     verdicts,
 )
@@ -96,6 +97,7 @@ CHECKS = {
     "balanced": Check(balanced.measure, 500),
     "verdicts": Check(verdicts.measure, 500),
     "drift": Check(drift.measure, 20),
+    "undeclared_drift": Check(undeclared_drift.measure, 100),
     "manual": Check(manual.measure, 200),
     "long_record": Check(long_record.measure, 5),
     "long_tables": Check(long_tables.measure, 1),

@@ -105,7 +105,7 @@ def test_a_row_corrects_as_kalman_says(first, second):
 
 
 def test_where_the_bias_is_alone_its_block_is_passed_over():
-    """A camera's row and a prediction: as with all of it, but bias and drift keep their variance."""
+    """A camera's row and a prediction: as with all of it; bias and drift keep their variance."""
     phi, full = transition(1)
     P, H = covariance(3), pick(0, -1)
     P[:15, 15:] = P[15:, :15] = 0.0
