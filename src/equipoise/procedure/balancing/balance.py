@@ -22,13 +22,12 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
-from equipoise.procedure.steps.gaussian_box import probability_inside
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
 from equipoise.procedure.steps.plain_steps import com_step, measurement_step, verdict_step
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
-from equipoise.procedure.steps.verify import Aim, fresh_enough, is_within, verdict
+from equipoise.procedure.steps.verify import Aim, fresh_enough, is_known, is_within, verdict
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,8 +128,7 @@ def reason_to_stop(
     movable = len(progress.moves) < options.max_moves
     early = bench.time - began < LATEST * (options.max_time - SETTLE)
     sure = FIRM if movable and early else SPENT
-    known = probability_inside(np.zeros(3), knowledge.covariance, options.close) >= sure
-    if judged and known and is_within(knowledge, options, sure):
+    if judged and is_within(knowledge, options, sure) and is_known(knowledge, options.close, sure):
         return StepReason.WITHIN_TOLERANCE
     if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
         return StepReason.ESTIMATE_UNUSABLE
