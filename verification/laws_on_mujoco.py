@@ -24,7 +24,7 @@ NEAR = np.array([2e-6, 2e-6, 3e-6])  # m, asked of every law
 SDS, STOPS = 4.0, 0.05e-6  # of a verdict; m, what masses and 3 % of J add to it
 AN_HOUR = "fully_actuated"  # with the preset's wheels
 LONGEST = {"planar_magnetic": 1500.0}  # s, its coils are weak
-LOW = {"ivanov_25s": np.array([0.0, 0.0, -30e-6])}  # m, target: nothing stops its swing, so it hangs
+LOW = {"ivanov_25s": np.array([0.0, 0.0, -30e-6])}  # m, target: nothing stops its swing
 ALL = tuple(law for law in CARDS if law != AN_HOUR)
 
 
