@@ -64,6 +64,7 @@ from verification import (
     tracker_honesty,
     tracker_knows,
     two_levels,
+    undeclared_drift,
     vector_sensors,
     verdicts,
 )
@@ -97,6 +98,7 @@ CHECKS = {
     "balanced": Check(balanced.measure, 500),
     "verdicts": Check(verdicts.measure, 500),
     "drift": Check(drift.measure, 20),
+    "undeclared_drift": Check(undeclared_drift.measure, 100),
     "manual": Check(manual.measure, 200),
     "two_levels": Check(two_levels.measure, 200),
     "long_record": Check(long_record.measure, 5),

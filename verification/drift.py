@@ -67,6 +67,13 @@ class Run(NamedTuple):
     start: Array  # m, true, from the target, as balancing left it
     sentence: str
     outcome: VerdictOutcome
+    began: float  # s, the hold
+    balanced: VerdictOutcome  # what balancing before it came to
+
+    @property
+    def well(self) -> bool:
+        """Whether it was held within the limit on every axis, to the end."""
+        return self.held and bool(np.all(self.worst <= LIMIT))
 
 
 def drifting(seed: int) -> Testbed:
@@ -100,9 +107,14 @@ def posteriors(steps: Iterator[Step], bench: Watched) -> Iterator[tuple[Step, Ar
 
 def held(hold: float, seed: int) -> Run:
     """Balance and hold the platform of one seed for so long (s)."""
+    return watched_hold(drifting(seed), hold, seed)
+
+
+def watched_hold(testbed: Testbed, hold: float, seed: int) -> Run:
+    """Balance and hold a platform for so long (s); watch its truth."""
     holding = HoldOptions(duration=hold)
-    bench = Watched(SimulatedBench(drifting(seed), seed))
-    began, moves, last = np.inf, 0, None
+    bench = Watched(SimulatedBench(testbed, seed))
+    began, moves, last, balanced = np.inf, 0, None, VerdictOutcome.UNDECIDED
     errors, zs = [np.full(3, np.nan)], [np.full(3, np.nan)]
     for step, error, z in posteriors(balance_and_hold(bench, holding.balancing, holding), bench):
         if np.isfinite(began):
@@ -110,7 +122,7 @@ def held(hold: float, seed: int) -> Run:
             errors.append(error)
             zs.append(z)
         elif step.verdict is not None:
-            began = step.time
+            began, balanced = step.time, step.verdict.outcome
         last = step
     while_held = np.array(bench.t) > began
     off = np.abs(np.array(bench.com)[while_held] - HOLDING.target)
@@ -120,15 +132,14 @@ def held(hold: float, seed: int) -> Run:
     done = bench.time - began >= hold - 1e-6
     z, error = np.array(zs)[1:], np.array(errors)[1:]
     return Run(seed, done, worst, moves, z, error, at, start, last.sentence,
-               last.verdict.outcome)  # fmt: skip
+               last.verdict.outcome, began, balanced)  # fmt: skip
 
 
 def row_of(run: Run) -> Row:
     """Return the row of one run."""
     quantity = f"seed {run.seed}: worst true distance, um ({run.moves} moves)"
     found = triple(1e6 * run.worst) if run.held else f"not held to the end: {run.sentence}"
-    ok = run.held and bool(np.all(run.worst <= LIMIT))
-    return Row(quantity, found, f"at most {1e6 * LIMIT:g} per axis", ok)
+    return Row(quantity, found, f"at most {1e6 * LIMIT:g} per axis", run.well)
 
 
 def note_of(run: Run) -> str:
@@ -163,8 +174,8 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn, hold: float = HOLD) 
     )
     claim = (
         "Preset sputnix with 1 um/min of drift in a random direction, declared "
-        "under `[disturbance] consider`: balanced to "
-        f"{1e6 * HOLDING.balancing.tolerance[2]:g} um with at most {HOLDING.balancing.max_moves} "
+        "under `[disturbance] consider`: balanced until it is known to "
+        f"{1e6 * HOLDING.balancing.close[2]:g} um, with at most {HOLDING.balancing.max_moves} "
         f"moves and {HOLDING.balancing.max_time:g} s, then held for {hold / 60:.0f} min within "
         f"{1e6 * LIMIT:g} um of the target."
     )

@@ -30,6 +30,7 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         *(each.refuted for each in CRITERIA),
         Why.RECORD_MISFITS,
         Why.MOVE_MISSED,
+        Why.RAILS_ENDED,
         Why.OUT_OF_REACH,
         Why.MET_BY_ONE_CHANGE,
         Why.RUNS_SCATTER,

@@ -110,6 +110,7 @@ TABLE_3: dict[Printed, tuple[str, ...]] = {
     ),
     Printed("others", NOT_THERE): (
         "coarse_fine",
+        "ivanov_25s",
         "impulse_feedback",
         "slew_and_measure",
         "momentum_buildup",

@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 from equipoise.io.testbed.presets import read_preset
-from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold, without_drift
+from equipoise.model.units import UM
+from equipoise.procedure.balancing.hold import (
+    HoldOptions,
+    balance_and_hold,
+    without_drift,
+)
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
 
@@ -41,3 +46,17 @@ def test_the_hold_lasts_for_the_requested_time(held):
 def test_drift_is_left_to_the_tracker():
     kept = without_drift(np.arange(1.0, 17.0))
     np.testing.assert_array_equal(kept, [*np.arange(1.0, 14.0), 0.0, 0.0, 0.0])
+
+
+def test_a_hold_whose_rails_end_fails_and_says_so():
+    """Rails of 3 mm end within minutes of 10 um/min; the verdict on balancing is another one."""
+    bed = read_preset("sputnix")
+    drift = {"drift_x": 10 * UM / 60}
+    truth = replace(bed.truth, torque=drift, com_low=np.array([-2, -2, -105]) * UM,
+                    com_high=np.array([2, 2, -95]) * UM)  # fmt: skip
+    rails = tuple(replace(mass, travel=(-0.012, 0.012)) for mass in bed.masses)
+    bench = SimulatedBench(replace(bed, masses=rails, inertia_sd=0.01, truth=truth), 5)
+    *_, last = balance_and_hold(bench, replace(FIRST, max_time=60.0), HoldOptions(duration=600.0))
+    assert (last.kind, last.verdict.outcome) == ("stop", "failed")
+    assert last.verdict.code == "rails_ended"
+    assert "the end of their rails" in last.sentence

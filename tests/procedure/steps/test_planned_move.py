@@ -10,7 +10,7 @@ from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.units import UM
-from equipoise.procedure.balancing.hold import before_moving
+from equipoise.procedure.balancing.hold_posterior import before_moving
 from equipoise.procedure.steps.joint_fit import learn, without_stops
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.simulation.bench import SimulatedBench

@@ -19,6 +19,7 @@ from equipoise.procedure.steps.verify import (
     Aim,
     com_then,
     fresh_enough,
+    is_known,
     probability_within,
     verdict,
 )
@@ -42,6 +43,12 @@ def test_probability_by_hand():
     com, sd = np.array([0.0, 10.0, 11.0]) * UM, np.array([5.0, 1e-3, 1.0]) * UM
     found = probability_within(com, sd, np.zeros(3), np.full(3, 10 * UM))
     np.testing.assert_allclose(found, [0.9545, 0.5, 0.1587], atol=5e-5)
+
+
+def test_what_is_uncertain_fits_into_four_sd_and_not_into_one(known):
+    """Of three axes 4 sd hold 99.98 %, one sd 0.6827^3 or, as they correlate, some more."""
+    assert is_known(known, 4 * known.sd, 0.99)
+    assert not is_known(known, known.sd, 0.7)
 
 
 def test_on_target_passes(known):

@@ -52,7 +52,7 @@ def balance(
     max_time
         Bench time before giving up, s: 120, or 600 before a hold or with another law.
     hold
-        Then follow the drift and hold the balance for this time, s.
+        Then follow the drift, declared or not, and hold the balance for this time, s.
     budget_s
         Processor time that a search may take, s; it ends then with the best that it has found.
     on_step

@@ -91,9 +91,9 @@ def balance(
     max_time_s
         Bench time before giving up: 120, or 600 before a hold or with another law.
     hold_min
-        Then follow the drift and hold the balance for so many minutes. After measure_and_move,
-        which balances to a third of the tolerance before, since its errors stay; after
-        momentum_buildup, whose masses follow the tilt too, by the sag that it found.
+        Then follow the drift, declared or not, and hold the balance for so many minutes. After
+        measure_and_move, which measures to two fifths of the tolerance before, since its errors
+        stay; after momentum_buildup, whose masses follow the tilt too, by the sag that it found.
     out
         Folder for report, figures and balance.json; else one of its own in equipoise-runs.
     """

@@ -36,6 +36,7 @@ from equipoise.estimation.tracker.predict_correct import (
     add_stops,
     apply,
     begin,
+    drift_on,
     lean,
     note,
     placed,
@@ -56,13 +57,16 @@ def predict(
     moving, work, t = tools.moving, tools.work, inputs.t
     y, phi = moving.y, moving.phi
     now = body_at(body, inputs.maps, t, inputs.known, i, 0.0)
+    lapse = t[i + 1] - t[i]
+    drift_on(0.5 * lapse, end, work.P)
     begin(now, end, y)
     unit_columns(now, rate_of(now, y), y)
     step(body, inputs, i, y, moving.step)
     now = body_at(body, inputs.maps, t, inputs.known, i, 1.0)
     transition(now, body.mass, y, moving.step.fb, phi)
-    predict_covariance(body.inertia, phi, model.walks, t[i + 1] - t[i], work)
+    predict_covariance(body.inertia, phi, model.walks, lapse, work)
     lean(now, phi, point, y, end)
+    drift_on(0.5 * lapse, end, work.P)
     begin(now, end, y)
     return now
 
@@ -169,7 +173,8 @@ def walk_on(
         now = predict(model, inputs, body, i, point, place.posterior, tools)
         stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
         if walk.testing:
-            onsets.follow(watch, tools.moving.phi, tools.room)
+            lapse = rows.t[i + 1] - rows.t[i]
+            onsets.follow(watch, tools.moving.phi, lapse, tools.room)
         known, before = settled(levels), iq + iw
         iq, iw = see(model, rows, walk, i + 1, iq, iw, now, known, carried, written, tools)
         if done[REASON] != END:

@@ -18,7 +18,7 @@ from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.model.arrays import Floats
 
-AT = 7  # where com stands in an estimate written as one array: q, w, com, J, bias
+AT = 7  # where com stands in an estimate written as one array: q, w, com, J, bias, v
 MOVED = 0.01  # of a moment, chosen: half of the error that linearising once stands
 MOVED_COM = 0.03  # of |r|, chosen: r enters linearly but for its product with 1/J
 POSSIBLE = 0.5  # chosen: a point's inertia shrinks to no less than this at a time, along any axis

@@ -49,7 +49,7 @@ from equipoise.estimation.tracker.linearisation_point import (
 from equipoise.estimation.tracker.measurements import Rows, followed_by, later
 from equipoise.estimation.tracker.mixture import EVENT
 from equipoise.estimation.tracker.noise_level import settled
-from equipoise.estimation.tracker.stored_covariance import SIZE
+from equipoise.estimation.tracker.stored_covariance import DRIFT, SIZE
 from equipoise.model.arrays import Floats
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
@@ -62,6 +62,7 @@ TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
 BODY = slice(AT, AT + 9)  # r and J in an estimate written as one array
 ERRORS = slice(6, 15)  # and in the error state
+MISLED, IN_ERRORS = np.r_[BODY, AT + 12 : AT + 15], np.r_[ERRORS, DRIFT:SIZE]  # the drift, too
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -102,11 +103,12 @@ def anchored(memory: Memory, here: Place, node: int) -> Memory:
 
 
 def without(anchor: Place, here: Place) -> Place:
-    """Return a place that knows of r and J what the anchor did: rows since then have misled it."""
+    """Return a place that knows of r, J and v what the anchor did: rows since have misled it."""
     found = here.copy()
-    found.posterior[BODY] = anchor.posterior[BODY]
-    found.covariance[ERRORS] = found.covariance[:, ERRORS] = 0.0
-    found.covariance[ERRORS, ERRORS] = anchor.covariance[ERRORS, ERRORS]
+    found.posterior[MISLED] = anchor.posterior[MISLED]
+    found.covariance[IN_ERRORS] = found.covariance[:, IN_ERRORS] = 0.0
+    block = np.ix_(IN_ERRORS, IN_ERRORS)
+    found.covariance[block] = anchor.covariance[block]
     return found
 
 

@@ -1,8 +1,9 @@
 """The covariance of the error state as the kernels keep it, compiled.
 
 Row by row in one array, each row filled up with zeros to two blocks of LANES numbers, so that the
-compiler knows where everything is and works on whole machine vectors. What is known of the bias
-alone lies in the second block, which is passed over where no gyro has sent a row.
+compiler knows where everything is and works on whole machine vectors. What is known of bias and
+drift alone lies in the second block, which is passed over where no gyro has sent a row and the
+centre of mass is not taken to drift.
 
 Between steps only what is on and above the diagonal counts; ``fill`` writes the rest, which only
 the prediction reads.
@@ -12,7 +13,8 @@ from equipoise.dynamics.sensitivities import LANES
 from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Square
 
-SIZE, N = 18, 15  # dth, dw, dr, dJ, db; the propagator moves the first 15, in one block
+SIZE, N = 21, 15  # dth, dw, dr, dJ, db, dv; the propagator moves the first 15, in one block
+DRIFT = 18  # where dv stands
 ROW = 2 * LANES  # numbers from one row to the next
 
 
@@ -34,7 +36,10 @@ def give(P: Floats, covariance: Square) -> None:
 
 @part
 def coupled(covariance: Square) -> bool:
-    """Say whether the bias has to do with the rest."""
+    """Say whether the bias has to do with the rest, or there may be a drift."""
+    for i in range(DRIFT, SIZE):
+        if covariance[i, i] != 0.0:
+            return True
     for i in range(N):
         for j in range(N, SIZE):
             if covariance[i, j] != 0.0:

@@ -1,9 +1,10 @@
 """Tracker: multiplicative extended Kalman filter of attitude, rate, mass properties and gyro bias.
 
-    error state  x = [ dth, dw, dr, dJ, db ]      (body axes; r and J with the masses at home)
+    error state  x = [ dth, dw, dr, dJ, db, dv ]  (body axes; r and J with the masses at home)
     prediction   the propagator; Phi from its sensitivities to first attitude, rate, moment, J
-    z_q = log( q_pred^-1 (x) q_meas ),  H = [E 0 0 0 0],  R = sd_q^2 E
-    z_w = w_meas - w_pred - b,          H = [0 E 0 0 E],  R = sd_w^2 E
+                 r' = v: the centre of mass drifts, where the state's covariance says that it may
+    z_q = log( q_pred^-1 (x) q_meas ),  H = [E 0 0 0 0 0],  R = sd_q^2 E
+    z_w = w_meas - w_pred - b,          H = [0 E 0 0 E 0],  R = sd_w^2 E
     q+  = q_pred (x) exp( dth+ )
 
 Ivanov 2021 section 5 with errata I7-I11: the error is the whole rotation vector, so no block
@@ -65,7 +66,7 @@ Moves = Literal["fed", "ignored"]
 Kind = Literal["impulse", "step", "either", "lost"]
 KINDS: tuple[Kind, ...] = ("impulse", "step", "either", "lost")
 UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump unannounced
-WHERE = np.cumsum([4, 3, 3, 6, 3])  # where the parts of an estimate written as one array end
+WHERE = np.cumsum([4, 3, 3, 6, 3, 3])  # where the parts of an estimate written as one array end
 QUIET = 7200.0  # s, chosen: how often chance alone is called a contact; it costs what was known
 
 
@@ -77,6 +78,7 @@ class Params:
     com_walk: float = 5e-8  # m/sqrt(s): 0.05 um, thermal drift; chosen within 0.01 to 0.1
     torque_walk: float = 1e-6  # N m sqrt(s): air and bearing torques on a platform of some kg
     bias_walk: float = 1e-7  # rad/s/sqrt(s)
+    drift_walk: float = 0.0  # m/s/sqrt(s), of the rate at which the centre of mass drifts
     torque: Floats | None = None  # (19,) known coefficients
 
 
@@ -99,7 +101,8 @@ class State:
     com: Vector3  # m, masses at home
     inertia_P: Matrix3  # kg m^2, masses at home
     bias: Vector3  # rad/s
-    covariance: Square  # (18, 18) of dth, dw, dr, dJ, db
+    drift: Vector3  # m/s, of com
+    covariance: Square  # (21, 21) of dth, dw, dr, dJ, db, dv
     memory: Memory | None = None  # of the rows before; None: this is where tracking begins
 
     @property
@@ -136,7 +139,8 @@ class Track:
     com: Series3  # m, masses at home; with moves ignored: as they stand
     inertia: Series  # (n, 6) kg m^2, xx yy zz xy xz yz
     bias: Series3
-    sd: Series  # (n, 18) of dth, dw, dr, dJ, db
+    drift: Series3  # m/s, of com
+    sd: Series  # (n, 21) of dth, dw, dr, dJ, db, dv
     surprise: Series1  # squared innovation over its covariance, 3 degrees of freedom
     contacts: tuple[Contact, ...]
     end: State
@@ -175,10 +179,11 @@ def first_state(
     covariance = np.zeros((SIZE, SIZE))
     noise = testbed.attitude.noise if testbed.attitude else 0.1
     bias = testbed.gyro.bias_sd if testbed.gyro else 0.0
-    spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 9 + [bias**2] * 3
+    spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 9 + [bias**2] * 3 + [0.0] * 3
     covariance[np.diag_indices(SIZE)] = spread
     covariance[BODY, BODY] = posterior.covariance
-    return State(t, q, np.zeros(3), posterior.com, posterior.inertia_P, np.zeros(3), covariance)
+    still = np.zeros(3)
+    return State(t, q, still, posterior.com, posterior.inertia_P, still, still, covariance)
 
 
 def contact_alarm(testbed: Testbed, recording: Recording) -> float:
@@ -203,7 +208,7 @@ def model_of(recording: Recording, testbed: Testbed, params: Params, state: Stat
     return Model(
         rigid_body(body, testbed.gravity, params.torque),
         stacked(mass_maps(testbed.masses)), filter_columns(), np.array(sd),
-        np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3),
+        np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk, params.drift_walk], 3),
         contact_alarm(testbed, recording),
     )  # fmt: skip
 
@@ -211,13 +216,13 @@ def model_of(recording: Recording, testbed: Testbed, params: Params, state: Stat
 def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
     """Return the estimate after every row later than the state; to go on, call from its end."""
     posterior = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
-                             state.bias])  # fmt: skip
+                             state.bias, state.drift])  # fmt: skip
     speed, fed = float(np.linalg.norm(state.rate)), params.moves == "fed"
     fresh = rows_of(recording, testbed, fed, state.t, speed)
     model = model_of(recording, testbed, params, state)
     memory, here, written = follow(model, state.memory, Place(posterior, state.covariance), fresh)
-    q, w, com, J, b = np.split(here.posterior, WHERE[:-1])
-    end = State(float(fresh.t[-1]), q, w, com, unpack_symmetric(J), b, here.covariance, memory)
+    q, w, com, J, b, v = np.split(here.posterior, WHERE[:-1])
+    end = State(float(fresh.t[-1]), q, w, com, unpack_symmetric(J), b, v, here.covariance, memory)
     return track_of(written, end)
 
 
@@ -225,9 +230,9 @@ def track_of(written: Written, end: State) -> Track:
     """Return what the walk has written."""
     out = written.out
     at = np.split(out, [1, *(1 + WHERE), out.shape[1] - 1], axis=1)
-    t, q, w, com, J, b, sd, surprise = at
+    t, q, w, com, J, b, v, sd, surprise = at
     found = tuple(contact_of(event, end) for event in written.events[: written.done[EVENTS]])
-    return Track(t[:, 0], q, w, com, J, b, sd, surprise[:, 0], found, end)
+    return Track(t[:, 0], q, w, com, J, b, v, sd, surprise[:, 0], found, end)
 
 
 def contact_of(event: Floats, end: State) -> Contact:

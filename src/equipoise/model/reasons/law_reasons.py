@@ -39,6 +39,7 @@ class LawReason(Code):
     HEIGHT_NOT_SHOWN = "height_not_shown", "Level; its height was not shown:"  # reasons follow
     COM_NOT_SHOWN = "com_not_shown", "The centre of mass was not shown:"  # reasons follow
     AT_PLACE = "at_place", "At its place after {swings:.0f} swings."
+    MOVES_MADE = "moves_made", "Made its {moves:.0f} moves."
     AT_PLACE_BY_TURNS = "at_place_by_turns", "At its place after {rounds:.0f} rounds of turns."
     COM_TOO_UNCERTAIN = (
         "com_too_uncertain",

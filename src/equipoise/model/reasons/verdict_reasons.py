@@ -51,6 +51,11 @@ class VerdictReason(Code):
         "hold_undecided",
         f"Cannot tell: {HOLD}; {{names}} not known well enough to be sure.",
     )
+    RAILS_ENDED = (
+        "rails_ended",
+        f"Failed: held for {{duration:min .3g}} min, until the masses came to the end of their "
+        f"rails; {WHERE}. Shift a weight by hand, so that they begin nearer to home.",
+    )
     NOT_HELD = "not_held", f"Failed: {HOLD}; {{names}} outside the tolerance."
 
     # On a run that was broken off

@@ -27,7 +27,7 @@ from equipoise.procedure.steps.plain_steps import com_step, measurement_step, ve
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
-from equipoise.procedure.steps.verify import Aim, fresh_enough, is_within, verdict
+from equipoise.procedure.steps.verify import Aim, fresh_enough, is_known, is_within, verdict
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,6 +36,12 @@ class BalanceOptions(Aim):
 
     max_moves: int = 3
     max_time: float = 120.0  # s on the bench's clock
+    closeness: float = 1.0  # share of the tolerance that what is uncertain may take
+
+    @property
+    def close(self) -> Vector3:
+        """Return the tolerance (m) for what is uncertain, the offset left out."""
+        return self.closeness * self.tolerance
 
 
 FIRST_MEASUREMENT = 1.6  # s, before anything is fitted
@@ -122,7 +128,7 @@ def reason_to_stop(
     movable = len(progress.moves) < options.max_moves
     early = bench.time - began < LATEST * (options.max_time - SETTLE)
     sure = FIRM if movable and early else SPENT
-    if judged and is_within(knowledge, options, sure):
+    if judged and is_within(knowledge, options, sure) and is_known(knowledge, options.close, sure):
         return StepReason.WITHIN_TOLERANCE
     if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
         return StepReason.ESTIMATE_UNUSABLE
@@ -170,7 +176,7 @@ def worth_learning(
     """
     up, first = testbed.up, left == options.max_moves
     low = float((knowledge.com - options.target) @ up) < -NOTABLE
-    vague = float(np.sqrt(up @ knowledge.covariance @ up)) > KNOWN * float(options.tolerance @ up)
+    vague = float(np.sqrt(up @ knowledge.covariance @ up)) > KNOWN * float(options.close @ up)
     return left > 1 and (first or (vague and not low))
 
 
@@ -212,8 +218,8 @@ def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float
     late = bench.time - began > share * (options.max_time - SETTLE)
     enough = LAST if left == 1 else KNOWN
     rough = AWAY if left == options.max_moves else BACK
-    known = bool(np.all((sd < enough * options.tolerance) | ((sd < rough * off) & (left > 1))))
-    worth = off > TRIM * options.tolerance if late and left == 1 else off + sd > options.tolerance
+    known = bool(np.all((sd < enough * options.close) | ((sd < rough * off) & (left > 1))))
+    worth = off > TRIM * options.close if late and left == 1 else off + sd > options.close
     return bool(np.any(worth)) and (known or late) and fresh_enough(knowledge, progress.still_since)
 
 

@@ -1,10 +1,13 @@
 """Hold: keep the centre of mass at its target, while the platform warms up and drifts.
 
-The tracker starts from the estimate of balancing, inertia and its uncertainty included; the masses
-follow whenever one of their steps brings the centre of mass closer.
+The tracker starts from the estimate of balancing, inertia, drift and their uncertainty included;
+the masses follow whenever one of their steps brings the centre of mass closer to its target, where
+it drifts to until the next measurement. That it drifts need not be declared: the tracker's state
+has the rate, which is uncertain at first by as much as a platform warms up.
 
-It is judged at every measurement by the tracker's posterior: held is what is within tolerance for
-sure each time (``model.criterion.jointly``).
+It is judged at every measurement by the tracker's posterior, and by what that predicts up to the
+next one: held is what is within tolerance for sure each time (``model.criterion.jointly``). A hold
+ends where the masses are at the end of their rails.
 """
 
 from collections.abc import Iterator
@@ -12,36 +15,43 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import displacements_for, shift_by
+from equipoise.actuators.sliding_masses import shift_by
 from equipoise.estimation.tracker import tracker
-from equipoise.estimation.tracker.predict_correct import COM
-from equipoise.maths.attitude import to_matrix
-from equipoise.model.arrays import Floats, Matrix3, Vector3
+from equipoise.estimation.tracker.predict_correct import DRIFTING
+from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
 from equipoise.model.reasons.reason import axes_of, one_reason
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
+from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
+from equipoise.procedure.balancing.hold_moves import nearest_offset, next_goal
+from equipoise.procedure.balancing.hold_posterior import (
+    COM_WALK,
+    ahead,
+    before_moving,
+    moved_on,
+    standing,
+)
 from equipoise.procedure.balancing.hold_verdict import Measured, verdict_on
-from equipoise.procedure.steps.joint_fit import Knowledge
-from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
+from equipoise.procedure.steps.joint_fit import DRIFT, Knowledge
+from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.sampler import last_row
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import state_now
-from equipoise.procedure.steps.verify import Aim
+from equipoise.procedure.steps.verify import Aim, at
 
 MEASUREMENT = 5.0  # s between decisions
-FINER = 1 / 3  # of the tolerance, chosen: how closely to balance first
+SOON = 0.4  # s, chosen: before the first, as balancing leaves it anywhere within tolerance
+CLOSENESS = 0.4  # of the tolerance, chosen: for what is uncertain after balancing; it stays
 FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: allowed to the balancing before a hold
-ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered
-PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
-WIDE = 0.6  # of the tilt limit: a swing that corrections should calm
-GAIN = 0.1  # of the tolerance: the least improvement of the worst axis by a move
+WARMING = 1e-8  # m/s, chosen: one sd of what a drift may be other than before the hold
+DRIFT_WALK = 5e-10  # m/s/sqrt(s), chosen: by 1.3 um/min within half an hour
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,10 +66,12 @@ class HoldOptions(Aim):
         """Return the options of the balancing before the hold.
 
         An inertia wrong by 1 % is a height wrong by 1 um at 100 um, for as long as the hold lasts:
-        so there are moves to estimate it by, and tolerance is left for drift between the moves.
+        so there are moves to estimate it by. Where the centre of mass is then does not matter as
+        long as it is within tolerance: the hold moves it.
         """
-        tolerance = FINER * self.tolerance
-        return BalanceOptions(self.target, tolerance, FIRST_MOVES, FIRST_TIME, budget=self.budget)
+        return BalanceOptions(
+            self.target, self.tolerance, FIRST_MOVES, FIRST_TIME, CLOSENESS, budget=self.budget
+        )
 
 
 def balance_and_hold(
@@ -83,102 +95,65 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
     shift = shift_by(testbed, knowledge.displacement)
     t = float(knowledge.fitted.problem.line.t[-1])
     inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
-    covariance = knowledge.estimate.covariance_of((*knowledge.standing, *INERTIA))
-    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, covariance)
-    return replace(tracker.first_state(t, q, testbed, posterior), rate=rate)
-
-
-def standing(state: tracker.State, testbed: Testbed, displacement: Floats) -> Measured:
-    """Return the posterior of the centre of mass with the masses as they stand."""
-    return Measured(state.com + shift_by(testbed, displacement), state.covariance[COM, COM])
-
-
-def before_moving(
-    state: tracker.State, testbed: Testbed, displacement: Floats, goal: Floats
-) -> tuple[Vector3, Matrix3]:
-    """Return the centre of mass (m, m^2) less the stops' errors of masses about to move to a goal.
-
-    The tracker does not estimate single stops, so only their accuracy is known.
-    """
-    now = standing(state, testbed, displacement)
-    leaving = (goal != displacement) & (displacement != 0)  # at home a mass has no error
-    return now.com, now.covariance + stops_covariance(testbed, leaving)
-
-
-def correction(
-    com: Vector3, displacement: Floats, testbed: Testbed, options: HoldOptions
-) -> Floats | None:
-    """Return displacements (m) that bring the centre of mass closer, or None."""
-    now = np.abs(com - options.target) / options.tolerance
-    if now.max() < ACT:
-        return None
-    masses, total = testbed.masses, testbed.body.mass
-    goal = displacements_for(masses, total, displacement, options.target - com)
-    change = shift_by(testbed, goal - displacement)
-    then = np.abs(com + change - options.target) / options.tolerance
-    return goal if then.max() < now.max() - GAIN else None
-
-
-def swing_amplitude(state: tracker.State, com: Vector3, testbed: Testbed) -> float:
-    """Return the tilt (rad) that the present swing reaches: all its energy as height.
-
-    1/2 w.J w (w across the vertical) + m g (R r).z = -m g |r| cos(amplitude)
-    """
-    R = to_matrix(state.q)
-    across = state.rate - (state.rate @ R[2]) * R[2]
-    weight = testbed.weight * float(np.linalg.norm(com))
-    height = testbed.weight * float((R @ com)[2])
-    energy = 0.5 * float(across @ state.inertia_P @ across) + height
-    return float(np.arccos(np.clip(-energy / weight, -1.0, 1.0)))
-
-
-def calming(state: tracker.State, shift: Vector3, testbed: Testbed) -> bool:
-    """Say whether a shift d of the centre of mass (m) takes energy out of the swing now.
-
-    At attitude R it adds m g (R d)_z, less what it moves the whole swing up or down: m g d.up.
-    """
-    return float((to_matrix(state.q) @ shift)[2]) <= float(shift @ testbed.up)
-
-
-def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed) -> bool:
-    """Say whether to make a correction now.
-
-    Corrections at any moment would pump an undamped platform; once it swings far, only those that
-    calm it are made, and soon there is one.
-    """
-    wide = swing_amplitude(state, com, testbed) > WIDE * testbed.tilt_limit
-    return not wide or calming(state, shift, testbed)
+    estimate, known = knowledge.estimate, (*knowledge.standing, *INERTIA)
+    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, estimate.covariance_of(known))
+    state = tracker.first_state(t, q, testbed, posterior)
+    drift, covariance = np.zeros(3), state.covariance.copy()
+    if estimate.has(DRIFT[0]):
+        drift, every = estimate.values(DRIFT), np.ix_(DRIFTING, DRIFTING)
+        covariance[every] = estimate.covariance_of((*known, *DRIFT))
+    for k in DRIFTING[-3:]:
+        covariance[k, k] += WARMING**2
+    return replace(state, rate=rate, drift=drift, covariance=covariance)
 
 
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
     """Yield a move whenever one is made, and a verdict at the end."""
-    testbed, end = bench.testbed, bench.time + options.duration
-    params = tracker.Params(torque=without_drift(knowledge.fitted.point.torque))
+    testbed, began = bench.testbed, bench.time
+    end = began + options.duration
+    params = params_for(knowledge)
     state, displacement = first_posterior(knowledge, testbed), knowledge.displacement
-    course = [standing(state, testbed, displacement)]
+    course, wait = [standing(state, testbed, displacement)], SOON
     while bench.time < end - 1e-9:
-        fresh = bench.read(min(MEASUREMENT, end - bench.time))
+        fresh, wait = bench.read(min(wait, end - bench.time)), MEASUREMENT
         state = tracker.track(fresh, testbed, params, state).end
         displacement = last_row(fresh.masses, displacement)
-        course.append(standing(state, testbed, displacement))
-        com = course[-1].com
-        if tilted(fresh, testbed):
+        now = standing(state, testbed, displacement)
+        later = ahead(now, state, min(MEASUREMENT, end - bench.time))
+        course += [now, later]
+        why = reason_to_stop(fresh, later, displacement, testbed, options)
+        if why is not None:
             bench.stop()
-            yield stop_step(bench, course[-1])
+            yield stop_step(bench, now, why, bench.time - began)
             return
-        goal = correction(com, displacement, testbed, options)
-        if goal is None:
-            continue
-        shift = shift_by(testbed, goal - displacement)
-        pressing = np.any(np.abs(com - options.target) > PRESSING * options.tolerance)
-        if pressing or timely(state, com, shift, testbed):
+        goal = next_goal(state, later.com, displacement, testbed, options)
+        if goal is not None:
             posterior = before_moving(state, testbed, displacement, goal)
             move = planned_move(testbed, displacement, goal, posterior, MoveReason.DRIFT)
             bench.move(move.targets)
-            why = one_reason(move.reason, **axes_of("was", com), travel=move.travel)
+            course[-1] = moved_on(move, now, later)
+            why = one_reason(move.reason, **axes_of("was", now.com), travel=move.travel)
             yield Step("move", bench.time, why, fresh, move=move)
     judged = verdict_on(course, options, options.duration)
     yield Step("verify", bench.time, judged.reasons, verdict=judged)
+
+
+def params_for(knowledge: Knowledge) -> tracker.Params:
+    """Return the tracker's options: its state has the drift, so the known torques have none."""
+    torque = without_drift(knowledge.fitted.point.torque)
+    return tracker.Params(torque=torque, com_walk=COM_WALK, drift_walk=DRIFT_WALK)
+
+
+def reason_to_stop(
+    fresh: Recording, later: Measured, displacement: Floats, testbed: Testbed, options: HoldOptions
+) -> VerdictReason | None:
+    """Return why to stop now, or None: it tilts too far, or no mass can follow any more."""
+    if tilted(fresh, testbed):
+        return VerdictReason.TILTED
+    if bool(np.all(np.abs(later.com - options.target) <= options.tolerance)):
+        return None
+    left = nearest_offset(later.com, displacement, testbed, options.target)
+    return VerdictReason.RAILS_ENDED if bool(np.any(left > options.tolerance)) else None
 
 
 def without_drift(torque: Floats) -> Floats:
@@ -188,7 +163,8 @@ def without_drift(torque: Floats) -> Floats:
     return kept
 
 
-def stop_step(bench: Bench, last: Measured) -> Step:
-    """Return the stop of a hold whose platform tilts too much."""
-    verdict = Verdict(one_reason(VerdictReason.TILTED), last.com, last.sd)
+def stop_step(bench: Bench, last: Measured, why: VerdictReason, duration: float) -> Step:
+    """Return the stop of a hold, with its reason, after so long (s)."""
+    numbers = {} if why is VerdictReason.TILTED else {"duration": duration, **at(last.com, last.sd)}
+    verdict = Verdict(one_reason(why, **numbers), last.com, last.sd)
     return Step("stop", bench.time, verdict.reasons, verdict=verdict)

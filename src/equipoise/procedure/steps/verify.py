@@ -49,6 +49,11 @@ def is_within(knowledge: Knowledge, aim: Aim, sure: float) -> bool:
     return probability_inside(off, knowledge.covariance, aim.tolerance) >= sure
 
 
+def is_known(knowledge: Knowledge, closely: Vector3, sure: float) -> bool:
+    """Say whether the errors of all axes are within bounds (m) with a probability of ``sure``."""
+    return probability_inside(np.zeros(3), knowledge.covariance, closely) >= sure
+
+
 def fresh_misfit(knowledge: Knowledge, since: float) -> float:
     """Return by how many of its sd the chi-square of the rows after ``since`` (s) is too large."""
     attitude, at = knowledge.recording.attitude, knowledge.fitted.at
