@@ -1,7 +1,7 @@
 """All that the three papers ask for, item by item, and what shows that it works here.
 
-I: Ivanov et al. 2021.  R: the review, da Silva et al. 2021.  L: Lee et al. Each item names a test or
-a decision of this project's repository. A decision says why an item is not built.
+I: Ivanov et al. 2021.  R: the review, da Silva et al. 2021.  L: Lee et al. Each item names a test
+or a decision of this project's repository. A decision says why an item is not built.
 """
 
 from dataclasses import dataclass
@@ -104,7 +104,8 @@ ITEMS = (
          "tests/control/laws/test_impulse_feedback.py"),
     Item("R23", "[37]", "linear feedback of Small and Zajac: the law pid",
          "tests/control/laws/test_pid.py"),
-    Item("R24", "[34]", "parameter-adaptive control", "tests/control/laws/test_parameter_adaptive.py"),
+    Item("R24", "[34]", "parameter-adaptive control",
+         "tests/control/laws/test_parameter_adaptive.py"),
     Item("R25", "39-41", "underactuated balancing", "tests/control/laws/test_underactuated.py"),
     Item("R26", "section 4.2", "fully actuated balancing",
          "tests/control/laws/test_fully_actuated.py"),
@@ -119,7 +120,8 @@ ITEMS = (
     Item("R31", "Table 1", "thirteen testbeds", "tests/io/testbed/test_presets.py"),
     Item("R32", "Table 1", "table-top, umbrella, dumbbell, spherical rotor; masses in a pyramid",
          "tests/io/testbed/test_presets.py"),
-    Item("R33", "Table 2", "pros and cons of methods, measured", "tests/study/test_compare_methods.py"),
+    Item("R33", "Table 2", "pros and cons of methods, measured",
+         "tests/study/test_compare_methods.py"),
     Item("R34", "Table 3", "pros and cons of laws, measured", "tests/study/test_compare_laws.py"),
     Item("R35", "section 4", "laws on hardware: wheels, gyros, coils, jets",
          "tests/app/bench/test_laws_on_ports.py"),
@@ -130,7 +132,8 @@ ITEMS = (
     Item("L2", "2", "its regulator", "tests/control/elements/test_attitude_pid.py"),
     Item("L3", "section V", "singularity-robust steering and its index",
          "tests/actuators/test_cmg_steering.py"),
-    Item("L4", "3-5", "integrated balance", "tests/estimation/regression/formulations/test_rows.py"),
+    Item("L4", "3-5", "integrated balance",
+         "tests/estimation/regression/formulations/test_rows.py"),
     Item("L5", "6, 7", "averages of the rate",
          "tests/estimation/regression/formulations/test_rows.py"),
     Item("L6", "8", "recursive least squares begun by a batch",
@@ -142,7 +145,8 @@ ITEMS = (
     Item("L10", "Figs. 10-12", "estimates along the slew", "tests/study/papers/test_lee.py"),
     Item("L11", "Figs. 13-18", "indices along the slew, and the small slew",
          "tests/study/papers/test_lee.py"),
-    Item("L12", "section V", "estimation through the singularity", "tests/study/papers/test_lee.py"),
+    Item("L12", "section V", "estimation through the singularity",
+         "tests/study/papers/test_lee.py"),
     Item("L13", "Table 1", "parameters of the simulation", "tests/io/testbed/test_presets.py"),
     Item("L14", "section II", "attitude by a sun sensor and an accelerometer",
          "tests/statistical/test_vector_records.py"),

@@ -27,7 +27,7 @@ REACHED = np.full(3, 10 * UM)  # m, section 5 and conclusions
 MOVES, TIME = 4, 100.0  # -, s: section 5, four moves 25 s apart
 SPEEDS = np.array([1.0, 4.0]) * UM / MINUTE  # m/s, chosen: what warmth does to a table
 MOSTLY = 0.95  # of the platforms, chosen
-LAWS = ("measure_and_move",)
+LAWS = ("ivanov_25s", "measure_and_move")
 
 
 class CountingBench(SimulatedBench):

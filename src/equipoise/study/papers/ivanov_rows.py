@@ -113,7 +113,7 @@ def _tuple(values: Floats) -> tuple[float, ...]:
 
 def _quartiles(fits: Sequence[Fitted], names: Sequence[str]) -> Floats:
     """Return the distance of the quartiles of what each experiment shows, SI."""
-    every = [[fit.estimate.values([name])[0] for fit in fits if fit.estimate.sees([name])]
+    every = [[fit.estimate.values((name,))[0] for fit in fits if fit.estimate.sees((name,))]
              for name in names]  # fmt: skip
     low, high = np.array([np.percentile(values, [25, 75]) for values in every]).T
     return high - low

@@ -85,7 +85,7 @@ def largest_error(run: Manoeuvre, method: str, names: Sequence[str]) -> float:
     estimate, truth = run.estimates[method], true_values(run.testbed)
     sizes = dict(zip(INERTIA, element_sizes(run.testbed.body.inertia_P), strict=True))
     errors = [
-        abs(estimate.values([name])[0] - truth[name]) / sizes.get(name, abs(truth[name]))
+        abs(estimate.values((name,))[0] - truth[name]) / sizes.get(name, abs(truth[name]))
         for name in names
     ]
     return float(max(errors)) / PERCENT

@@ -1,4 +1,4 @@
-"""What da Silva et al. (2021) say of methods and laws, Tables 2 and 3, as ratios that were measured.
+"""What da Silva et al. (2021) say of methods and laws, Tables 2 and 3, as measured ratios.
 
 The review has pros and cons in words. Each that two rows of a table decide is a ratio here, of the
 best of a family to the best of another; below one it is as the review says.

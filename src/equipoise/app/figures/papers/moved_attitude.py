@@ -35,7 +35,7 @@ def draw(recording: Recording, moves: Marked) -> Figure:
 
 def _mark(axes: Axes, t: Series1, q: Floats, at: float, change: Vector3) -> None:
     """Draw a circle on each component at a move, and write the move in brackets above."""
-    here = [float(np.interp(at, t, component)) for component in q.T]
+    here = [float(np.interp(at, t, q[:, i])) for i in range(q.shape[1])]
     axes.plot([at] * len(here), here, "o", color="black", markerfacecolor="none", markersize=9,
               linestyle="none", zorder=4)  # fmt: skip
     text = "[" + "; ".join(f"{value / MM:.0f}" for value in change) + "]"
