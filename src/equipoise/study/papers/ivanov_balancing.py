@@ -1,9 +1,9 @@
 """Ivanov et al.'s balancing, section 5: a law on many platforms, with drift that nobody declares.
 
-The target is theirs, 100 um below P. A platform is as ``ivanov.platform`` has it, but its centre of
-mass is where a first balancing by hand leaves it (the preset's [truth]). It drifts at a speed and
-in a direction that its seed draws. A law is judged by where it really leaves the centre of mass,
-after how many moves and how long.
+The target is theirs, 100 um below P. A platform is as ``ivanov.platform`` has it, with its centre
+of mass up to NEAR from where they found it: so it hangs, as theirs did, within its tilt limit. It
+drifts at a speed and in a direction that its seed draws. A law is judged by where it really leaves
+the centre of mass, after how many moves and how long.
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,16 +13,19 @@ from functools import partial
 import numpy as np
 
 from equipoise.model.arrays import Vector3
+from equipoise.model.reasons.step_reasons import StepReason
+from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import MINUTE, UM
 from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import balanced_by
 from equipoise.simulation.bench import SimulatedBench
-from equipoise.study.papers.ivanov import drifting, platform
+from equipoise.study.papers.ivanov import COM, drifting, platform
 from equipoise.study.papers.paper_row import Agreement, PaperRow
 
 TARGET = np.array([0.0, 0.0, -100.0]) * UM  # m, section 5
+NEAR = 10 * UM  # m, chosen: along each axis, twice what their fits scatter aside
 REACHED = np.full(3, 10 * UM)  # m, section 5 and conclusions
 MOVES, TIME = 4, 100.0  # -, s: section 5, four moves 25 s apart
 SPEEDS = np.array([1.0, 4.0]) * UM / MINUTE  # m/s, chosen: what warmth does to a table
@@ -72,10 +75,11 @@ class Trial:
 
 
 def bed_of(trial: Trial) -> Testbed:
-    """Return the platform of a trial: anywhere where hands may have left it."""
+    """Return the platform of a trial."""
     bed = platform(trial.preset)
     assert bed.truth is not None
-    drawn = replace(bed, body=trial.preset.body, truth=replace(bed.truth, com=None))
+    box = replace(bed.truth, com=None, com_low=COM - NEAR, com_high=COM + NEAR)
+    drawn = replace(bed, truth=box)
     low, high = SPEEDS if trial.drifts else (0.0, 0.0)
     speed = float(np.random.default_rng([trial.seed, 3]).uniform(low, high))
     return drifting(drawn, speed, trial.seed)
@@ -85,10 +89,21 @@ def balanced(trial: Trial) -> Balanced:
     """Return where a law leaves the platform of a trial."""
     bench = CountingBench(bed_of(trial), trial.seed)
     options = BalanceOptions(TARGET, REACHED)
-    *_, last = balanced_by(trial.law, bench, options, None)
-    assert last.verdict is not None
-    return Balanced(trial.law, trial.seed, trial.drifts, bench.truth().com - TARGET, bench.moves,
-                    bench.last, last.verdict.outcome)  # fmt: skip
+    made: tuple[int, float] | None = None
+    outcome = VerdictOutcome.UNDECIDED
+    for step in balanced_by(trial.law, bench, options, None):
+        if made is None and ended(step):
+            made = bench.moves, bench.last
+        if step.verdict is not None:
+            outcome = step.verdict.outcome
+    error = bench.truth().com - TARGET
+    moves = made or (bench.moves, bench.last)
+    return Balanced(trial.law, trial.seed, trial.drifts, error, *moves, outcome)
+
+
+def ended(step: Step) -> bool:
+    """Say whether a law has ended; moves after that swing the platform for the proof."""
+    return any(reason.code is StepReason.LAW_RAN for reason in step.reasons)
 
 
 def balancing_rows(every: Sequence[Balanced]) -> tuple[PaperRow, ...]:
