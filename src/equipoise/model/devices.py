@@ -107,6 +107,14 @@ class Lamp:
     time_constant: float  # s
 
 
+@dataclass(frozen=True, slots=True)
+class Thermometer:
+    """A sensor of the temperature of the platform, or of the air."""
+
+    rate: float  # Hz
+    noise: float = 0.0  # K, one sd of a row
+
+
 Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
 
 

@@ -8,7 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from equipoise.model.arrays import Matrix3, Vector3
-from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors, nothing
+from equipoise.model.defects import (
+    CameraErrors,
+    ComStep,
+    Contact,
+    Gap,
+    GyroErrors,
+    TrueLamp,
+    nothing,
+)
 from equipoise.model.devices import (
     ControlMomentGyro,
     Device,
@@ -17,6 +25,7 @@ from equipoise.model.devices import (
     MagneticField,
     Magnetorquer,
     ReactionWheel,
+    Thermometer,
     recorded_name,
 )
 from equipoise.model.hardware import Hardware
@@ -150,6 +159,7 @@ class Truth:
     accelerometer_mounting: Vector3 = field(default_factory=nothing)  # rad, rotation vector
     sun_mounting: Vector3 = field(default_factory=nothing)  # rad
     magnetometer_mounting: Vector3 = field(default_factory=nothing)  # rad
+    lamp: TrueLamp | None = None  # None: there is none, or it is always off
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -189,6 +199,7 @@ class Testbed(Shown):
     accelerometer: Accelerometer | None = None
     sun: SunSensor | None = None
     magnetometer: Magnetometer | None = None  # of ``magnetic_field``
+    thermometer: Thermometer | None = None
 
     @property
     def weight(self) -> float:

@@ -22,7 +22,7 @@ from equipoise.actuators.control_moment_gyros import gimbal_maps
 from equipoise.actuators.sliding_masses import com_shift, inertia_shift, mass_maps
 from equipoise.actuators.stored_momentum import stored_momentum
 from equipoise.dynamics.propagation import rigid_body, stacked
-from equipoise.dynamics.regressor import DRIFT
+from equipoise.dynamics.regressor import DRIFT, THERMAL
 from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import unpack_symmetric
@@ -66,6 +66,13 @@ from equipoise.simulation.motion import Path
 from equipoise.simulation.noise_torque import extended, forgotten, start_noise, torque_at
 from equipoise.simulation.sensor_errors import misfelt, misread, whole, whole_angles, with_bad_rows
 from equipoise.simulation.stop import NO_STOP, stop_at
+from equipoise.simulation.surroundings.lamp import (
+    lamp_nodes,
+    lamp_of,
+    power_rows,
+    temperature_rows,
+    warmth_since_start,
+)
 from equipoise.simulation.touches import Noted, Touch, noted
 
 REPORTS = 20.0  # Hz, chosen: how often devices report where no sensor sets the pace
@@ -91,11 +98,12 @@ class SimulatedBench:
     def __init__(
         self, testbed: Testbed, seed: int, standing: Mapping[str, float] | None = None
     ) -> None:
-        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(11)]
+        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(12)]
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
         self._states_rng, self._field_rng = streams[6:8]
-        self._vector_rngs = dict[str, np.random.Generator](zip(CHANNELS, streams[8:], strict=True))
+        self._vector_rngs = dict[str, np.random.Generator](zip(CHANNELS, streams[8:11], strict=True))
+        self._warm_rng = streams[11]
         self._devices = started(testbed)
         self.testbed, self.seed = testbed, seed  # as stated; of all that is drawn
         self.platform = draw_truth(testbed, rng)
@@ -106,6 +114,7 @@ class SimulatedBench:
         self._stop = stop_at(testbed.up, testbed.tilt_limit)
         self._touched = Noted()
         self._happens = times([*truth.contacts, *truth.com_steps])
+        self._lamp = lamp_of(testbed.lamp, truth.lamp)
         self._rails = mass_maps(masses)
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
         self._travel = actuator.left_at(masses, standing or {}, self._stops_rng)
@@ -188,7 +197,9 @@ class SimulatedBench:
         body, coefficients = self.platform.body, self.platform.torque
         drift = coefficients[DRIFT : DRIFT + 3] * self._time
         slipped = com_moved(self.platform.truth.com_steps, self._time)
-        return body.com + drift + slipped + com_shift(self._rails, body.mass, self.displacements)
+        warmth = warmth_since_start(self._lamp, np.array([self._time]))[0, 0]
+        moved = drift + slipped + warmth * coefficients[THERMAL : THERMAL + 3]
+        return body.com + moved + com_shift(self._rails, body.mass, self.displacements)
 
     @property
     def sag(self) -> Matrix3:
@@ -235,6 +246,7 @@ class SimulatedBench:
         observed = [samples_between(sensor, start, now) for sensor in self._sensors]
         turns = tick(self._track.t + self.platform.truth.mass_lag)
         others = [turns, self._happens, bends(self._devices, start, now)]
+        others.append(lamp_nodes(self._lamp, start, now))
         others.append(multiples(grid_of(self.testbed), start, now))
         if self._noise.sd > 0:
             others.append(self._noise.t)
@@ -246,7 +258,7 @@ class SimulatedBench:
         truth = self.platform.truth
         h, gimbals = stored(self.testbed, self._devices, t)
         dipole, jets = effects(self.testbed, self._devices, t)
-        torque, warmth = torque_at(self._noise, t) + jets, np.zeros((len(t), 1))
+        torque, warmth = torque_at(self._noise, t) + jets, warmth_since_start(self._lamp, t)
         known = np.hstack([h, torque, warmth, self._real(t), gimbals])
         platform = (self._body, self._maps, self._state, t, known)
         stop = self._stop if t[-1] > t[0] else NO_STOP
@@ -279,8 +291,16 @@ class SimulatedBench:
         found = Recording(attitude, rate, names, masses, source=source)
         if testbed.devices:
             found = self._with_devices(found, after)
-        found = replace(found, field=self._magnetometer(t, path, after))
+        found = replace(found, field=self._magnetometer(t, path, after), **self._warmth(after, since))
         return replace(found, **{s.channel: self._vector(s, t, path, after) for s in self._vectors})
+
+    def _warmth(self, after: float, since: float) -> dict[str, Samples | None]:
+        """Return temperature, stamped after a time (s), and the lamp's switch since a time."""
+        sensor, rng, now = self.testbed.thermometer, self._warm_rng, self._time
+        temperature = temperature_rows(self._lamp, sensor, after, now, rng)
+        start = max(since - self._lead, 0.0)
+        power = power_rows(self.platform.truth.lamp, start, now)
+        return {"temperature": temperature, "lamp": power}
 
     def _vector(self, sensor: VectorSensor, t: Series1, path: Path, after: float) -> Samples:
         """Return the rows of a sensor of a vector, stamped after a time (s)."""

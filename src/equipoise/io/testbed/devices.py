@@ -135,6 +135,15 @@ class Lamp(RecordTable):
     time_constant_s: Positive
 
 
+class Thermometer(RecordTable):
+    """A thermometer on the platform (column temperature_degC)."""
+
+    KIND = model.Thermometer
+
+    rate_hz: Positive
+    noise_K: NotNegative = Field(0.0, description="one sd of a row")
+
+
 Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
 
 

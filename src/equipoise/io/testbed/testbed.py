@@ -9,7 +9,7 @@ from pydantic import Field
 from equipoise.io.testbed import devices
 from equipoise.io.testbed.hardware import Hardware, check_moved_masses
 from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
-from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
+from equipoise.io.testbed.truth import Truth, check_true_drives, check_true_lamp, truth_of
 from equipoise.io.testbed.vector_sensors import Accelerometer, Magnetometer, Sun
 from equipoise.io.testbed.weights import Weight, WeightGrid, check_weights
 from equipoise.io.toml.key_types import ITSELF, Holds, NotNegative, Positive, Table, Visible
@@ -85,6 +85,7 @@ class Sensors(Table):
     accelerometer: Accelerometer | None = None
     sun: Sun | None = None
     magnetometer: Magnetometer | None = None
+    temperature: Annotated[devices.Thermometer | None, Holds("thermometer")] = None
 
 
 class Disturbance(Table):
@@ -152,6 +153,7 @@ def _check(file: TestbedFile, source: str) -> None:
     _check_assumed(file, source)
     if file.truth is not None:
         check_true_drives(file.truth, masses, f"{source}: truth")
+        check_true_lamp(file.truth, file.lamp is not None, f"{source}: truth")
     if file.hardware is not None:
         check_moved_masses(file.hardware.board, masses, source)
 
