@@ -19,13 +19,13 @@ from equipoise.maths.attitude import exponential
 sensors = pytest.mark.parametrize(("first", "second"), [(0, -1), (3, 15)], ids=["camera", "gyro"])
 
 
-def covariance(seed: int, size: int = 18) -> np.ndarray:
+def covariance(seed: int, size: int = 21) -> np.ndarray:
     root = np.random.default_rng(seed).normal(size=(size, size))
     return root @ root.T
 
 
 def pick(first: int, second: int) -> np.ndarray:
-    H = np.zeros((3, 18))
+    H = np.zeros((3, 21))
     H[range(3), range(first, first + 3)] = 1.0
     if second >= 0:
         H[range(3), range(second, second + 3)] = 1.0
@@ -33,8 +33,8 @@ def pick(first: int, second: int) -> np.ndarray:
 
 
 def transition(seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """The (6, 15) block, and the (18, 18) matrix that it stands for."""
-    phi, full = np.random.default_rng(seed).normal(size=(6, 15)) / 4, np.eye(18)
+    """The (6, 15) block, and the (21, 21) matrix that it stands for."""
+    phi, full = np.random.default_rng(seed).normal(size=(6, 15)) / 4, np.eye(21)
     full[:6, :15] = phi
     return phi, full
 
@@ -46,18 +46,18 @@ def rows_of_16(phi: np.ndarray) -> np.ndarray:
 
 def table(flat: np.ndarray, rows: int) -> np.ndarray:
     """What the kernels keep row by row, the filling left out."""
-    return flat.reshape(rows, -1)[:, :18]
+    return flat.reshape(rows, -1)[:, :21]
 
 
 def holding(P: np.ndarray, biased: bool = True):
     """Tools that hold a covariance; below its diagonal nothing that counts."""
     work = new_tools(biased).work
-    stored.take(np.triu(P) + np.tril(np.full((18, 18), 7.0), -1), work.P)
+    stored.take(np.triu(P) + np.tril(np.full((21, 21), 7.0), -1), work.P)
     return work
 
 
 def held(work) -> np.ndarray:
-    P = np.zeros((18, 18))
+    P = np.zeros((21, 21))
     stored.give(work.P, P)
     return P
 
@@ -70,9 +70,9 @@ def packed(six: np.ndarray) -> np.ndarray:
 def test_covariance_is_predicted_as_phi_p_phi_transposed_and_noise():
     """Torque noise of 2 N m sqrt(s) on 4 kg m^2 for 0.1 s: (2 / 4)^2 0.1 = 0.025 on a rate."""
     phi, full = transition(1)
-    P, noise = covariance(2), np.zeros(18)
+    P, noise = covariance(2), np.zeros(21)
     noise[3:6] = 2.0
-    expected = full @ P @ full.T + np.diag([0.0] * 3 + [0.025] * 3 + [0.0] * 12)
+    expected = full @ P @ full.T + np.diag([0.0] * 3 + [0.025] * 3 + [0.0] * 15)
     work, inertia = holding(P), (4.0, 4.0, 4.0, 0.0, 0.0, 0.0)
     steps.predict_covariance(inertia, rows_of_16(phi), noise, 0.1, work)
     np.testing.assert_allclose(held(work), expected, rtol=0, atol=1e-12)
@@ -90,17 +90,17 @@ def test_a_row_corrects_as_kalman_says(first, second):
     surprise = steps.weigh(z, work)
     steps.shrink(first, second, 0.7, work)
     assert surprise == pytest.approx(np.array(z) @ np.linalg.solve(S, z))
-    np.testing.assert_allclose(work.x[:18], K @ z, atol=1e-12)
+    np.testing.assert_allclose(work.x[:21], K @ z, atol=1e-12)
     np.testing.assert_allclose(held(work), expected, rtol=0, atol=1e-12)
 
 
 def test_where_the_bias_is_alone_its_block_is_passed_over():
-    """A camera's row and a prediction: as with all 18, but the variances of the bias stay."""
+    """A camera's row and a prediction: as with all 21, but the variances of the bias stay."""
     phi, full = transition(1)
     P, H = covariance(3), pick(0, -1)
     P[:15, 15:] = P[15:, :15] = 0.0
     work = holding(P, biased=False)
-    still, stiff = np.zeros(18), (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
+    still, stiff = np.zeros(21), (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
     steps.predict_covariance(stiff, rows_of_16(phi), still, 0.1, work)
     P = full @ P @ full.T
     np.testing.assert_allclose(held(work), P, rtol=0, atol=1e-12)
@@ -113,7 +113,7 @@ def test_where_the_bias_is_alone_its_block_is_passed_over():
 
 
 def test_a_covariance_whose_bias_has_to_do_with_the_rest_says_so():
-    P = np.diag(np.arange(1.0, 19.0))
+    P = np.diag(np.arange(1.0, 22.0))
     assert not stored.coupled(P)
     P[4, 16] = P[16, 4] = 1e-30
     assert stored.coupled(P)
@@ -140,7 +140,7 @@ def test_signature_is_what_two_filters_differ_by(first, second):
     rng, watch, tools = np.random.default_rng(5), new_watch(), new_tools(True)
     P, H, v = covariance(6), pick(first, second), np.array([0.3, -0.2, 0.1])
     onsets.take_up(watch, 7.0)
-    off = {0: np.zeros(18), ONSETS: np.zeros(18)}  # truth minus filter, by the hypothesis
+    off = {0: np.zeros(21), ONSETS: np.zeros(21)}  # truth minus filter, by the hypothesis
     off[0][3:6], off[ONSETS][6:9] = v, v
     C, d = ({h: np.zeros(s) for h in off} for s in ((3, 3), 3))
     stored.take(P, tools.work.P)
@@ -149,7 +149,7 @@ def test_signature_is_what_two_filters_differ_by(first, second):
         z = rng.normal(size=3)
         steps.expect(first, second, 0.7, tools.work)
         steps.weigh(tuple(z), tools.work)
-        onsets.follow(watch, rows_of_16(phi), tools.room)
+        onsets.follow(watch, 0.0, rows_of_16(phi), tools.room)
         onsets.response(watch, first, second, tools.room)
         onsets.gather(watch, tuple(z), tools.work, tools.room)
         onsets.respond(watch, tools.work, tools.room)
@@ -183,7 +183,7 @@ def some_watch():
 
 
 def columns(watch, h: int) -> np.ndarray:
-    return watch.X.reshape(18, -1)[:, [h, MANY + h, 2 * MANY + h]]
+    return watch.X.reshape(21, -1)[:, [h, MANY + h, 2 * MANY + h]]
 
 
 def of(flat: np.ndarray, h: int) -> np.ndarray:
@@ -220,7 +220,7 @@ def test_a_contact_leaves_the_mixture_of_its_hypotheses():
         room.p[h] = p
     effects = {h: columns(watch, h) @ of(room.v, h) for h in weights}
     mean = sum(p * effects[h] for h, p in weights.items())
-    P, x = covariance(9), np.zeros(18)
+    P, x = covariance(9), np.zeros(21)
     expected = P + 0.01 * np.outer(mean, mean)
     for h, p in weights.items():
         X = columns(watch, h)
@@ -251,16 +251,16 @@ def test_an_attitude_taken_anew_brings_its_rate():
     """0.02 rad about y in 0.2 s: 0.1 rad/s; sd 2 x 1e-3 / 0.2 + 0.1 x 0.1 = 0.02."""
     q = exponential(np.array([[0.0, 0.0, 0.0], [0.0, 0.02, 0.0]]))
     rows = Rows(
-        np.array([0.0, 0.2, 0.4]), np.zeros((3, 6)), np.zeros(0, np.int64), q, np.array([1, 2]),
+        np.array([0.0, 0.2, 0.4]), np.zeros((3, 7)), np.zeros(0, np.int64), q, np.array([1, 2]),
         np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3, 3)),
     )  # fmt: skip
-    P, body, end = covariance(11), np.s_[6:, 6:], np.arange(19.0)
+    P, body, end = covariance(11), np.s_[6:, 6:], np.arange(22.0)
     work = holding(P)
     take_anew(rows, 1, 1e-3, end, work.P)
     np.testing.assert_allclose(end[:4], q[1])
     np.testing.assert_allclose(end[4:7], [0.0, 0.1, 0.0], atol=1e-12)
-    np.testing.assert_array_equal(end[7:], np.arange(7.0, 19.0))
-    left = np.zeros((18, 18))
+    np.testing.assert_array_equal(end[7:], np.arange(7.0, 22.0))
+    left = np.zeros((21, 21))
     left[body] = P[body]
     left[np.diag_indices(6)] = [1e-6] * 3 + [4e-4] * 3
     np.testing.assert_allclose(held(work), left, rtol=1e-9, atol=1e-15)

@@ -33,9 +33,9 @@ def slope(x: np.ndarray) -> np.ndarray:
 
 
 def some_covariance() -> np.ndarray:
-    """Of all 18 errors, correlated."""
-    root = np.random.default_rng(1).normal(size=(18, 18))
-    sd = np.concatenate([np.full(6, 1e-3), SPREAD, np.full(3, 1e-4)])
+    """Of all 21 errors, correlated."""
+    root = np.random.default_rng(1).normal(size=(21, 21))
+    sd = np.concatenate([np.full(6, 1e-3), SPREAD, np.full(6, 1e-4)])
     return root @ root.T * np.outer(sd, sd)
 
 
@@ -54,7 +54,7 @@ def carried(P: np.ndarray, *stations: np.ndarray) -> np.ndarray:
 
 def test_transport_is_a_constant_covariance_in_scale_coordinates():
     """T = (d coordinates/dx at the estimate)^-1 (d coordinates/dx at the point), by differences."""
-    T = np.eye(18)
+    T = np.eye(21)
     T[6:15, 6:15] = np.linalg.solve(slope(POSTERIOR), slope(POINT))
     P = some_covariance()
     scale = np.sqrt(np.outer(np.diag(P), np.diag(P)))
@@ -63,7 +63,7 @@ def test_transport_is_a_constant_covariance_in_scale_coordinates():
 
 def test_the_unobservable_direction_goes_along():
     """P = x x^T at the point becomes x' x'^T at the estimate."""
-    P = np.zeros((18, 18))
+    P = np.zeros((21, 21))
     P[6:15, 6:15] = np.outer(POINT, POINT)
     there = carried(P, POSTERIOR)[6:15, 6:15]
     np.testing.assert_allclose(there, np.outer(POSTERIOR, POSTERIOR), rtol=1e-9, atol=1e-15)
@@ -110,7 +110,7 @@ def test_products_decide_whether_an_inertia_is_possible():
 
 def test_scale_is_doubt_but_no_doubt_of_shape():
     """Only the common factor unknown, by 20 %: every moment 20 %, the shape not at all."""
-    P = np.zeros((18, 18))
+    P = np.zeros((21, 21))
     P[6:15, 6:15] = 0.04 * np.outer(POINT, POINT)
     assert doubt(POINT, P) == pytest.approx(0.2)
     assert doubt_of_shape(POINT, P) < 1e-7

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.io.testbed.presets import read_preset
-from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold, without_drift
+from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
 
@@ -36,8 +36,3 @@ def test_the_hold_lasts_for_the_requested_time(held):
     _, steps = held
     balanced = [step for step in steps[:-1] if step.verdict is not None][-1]
     assert steps[-1].time - balanced.time == pytest.approx(60.0 * MINUTES, abs=1e-6)
-
-
-def test_drift_is_left_to_the_tracker():
-    kept = without_drift(np.arange(1.0, 17.0))
-    np.testing.assert_array_equal(kept, [*np.arange(1.0, 14.0), 0.0, 0.0, 0.0])

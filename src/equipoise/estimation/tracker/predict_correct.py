@@ -4,6 +4,10 @@
     K  = P- H^T (H P- H^T + R)^-1,   x = K z,   P+ = (E - K H) P- (E - K H)^T + K R K^T
 
 H picks three rows of the error state (and the bias), so H P is a few rows of P.
+
+A platform that becomes warmer by dT between two nodes is displaced first (docs/derivations.md):
+
+    r <- r + k dT,    P <- F P F^T,    F = E but for dT E in the rows of r and the columns of k
 """
 
 from typing import NamedTuple
@@ -15,6 +19,7 @@ from equipoise.estimation.tracker.linearisation_point import AT
 from equipoise.estimation.tracker.stored_covariance import (
     ROW,
     SIZE,
+    WARM_ROW,
     add_product,
     add_row,
     copy_row,
@@ -26,20 +31,22 @@ from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints, Six, Triple
 
 COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
+WARM = slice(WARM_ROW, SIZE)  # and k
+WARMTH = 1 + WARM_ROW  # where k begins in an estimate
 
 
 class Work(NamedTuple):
-    """Arrays that a correction works in, made once; (3, 18) lie as rows of P do."""
+    """Arrays that a correction works in, made once; (3, 21) lie as rows of P do."""
 
-    P: Floats  # (18, 18) covariance, see ``stored_covariance``
-    x: Floats  # (18,) error state
-    HP: Floats  # (3, 18)
+    P: Floats  # (21, 21) covariance, see ``stored_covariance``
+    x: Floats  # (21,) error state
+    HP: Floats  # (3, 21)
     S: Floats  # (3, 3) covariance of the innovation
     inverse: Floats  # (3, 3) of S
-    K: Floats  # (3, 18) gain, transposed
-    left: Floats  # (3, 18) what Joseph's form adds, transposed
-    A: Floats  # (6, 18)
-    biased: bool  # the bias is in use
+    K: Floats  # (3, 21) gain, transposed
+    left: Floats  # (3, 21) what Joseph's form adds, transposed
+    A: Floats  # (6, 21)
+    biased: bool  # the bias or warmth is in use
 
 
 @part
@@ -205,12 +212,19 @@ def shrink(first: int, second: int, R: float, work: Work) -> None:
 
 @part
 def apply(x: Floats, w: Triple, y: Floats, end: Floats) -> None:
-    """Write the estimate (q, w, com, J, bias) corrected by the error state; y holds q before."""
+    """Write the estimate (q, w, com, J, bias, k) corrected by the error state; y holds q before."""
     end[0], end[1], end[2], end[3] = turned(y, x[0], x[1], x[2])
     for m in range(3):
         end[4 + m] = w[m] + x[3 + m]
-    for m in range(AT, AT + 12):
+    for m in range(AT, AT + 15):
         end[m] += x[m - 1]
+
+
+@part
+def displace(end: Floats, kelvins: float) -> None:
+    """Write r of an estimate (q, w, com, J, bias, k) that became warmer: r + k dT."""
+    for a in range(3):
+        end[AT + a] += kelvins * end[WARMTH + a]
 
 
 @part
@@ -251,7 +265,7 @@ def innovation(now: Now, y: Floats, bias: Floats, observed: Floats) -> Triple:
 
 @part
 def note(t: float, end: Floats, P: Floats, surprise: float, out: Floats) -> None:
-    """Write the row: t, q, w, com, J, bias, sd, surprise."""
+    """Write the row: t, q, w, com, J, bias, k, sd, surprise."""
     n = end.shape[0]
     out[0], out[1 + n + SIZE] = t, surprise
     for j in range(n):

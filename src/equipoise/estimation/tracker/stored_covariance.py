@@ -2,7 +2,8 @@
 
 Row by row in one array, each row filled up with zeros to two blocks of LANES numbers, so that the
 compiler knows where everything is and works on whole machine vectors. What is known of the bias
-alone lies in the second block, which is passed over where no gyro has sent a row.
+and of warmth alone lies in the second block, which is passed over where no gyro has sent a row and
+nothing has become warmer.
 
 Between steps only what is on and above the diagonal counts; ``fill`` writes the rest, which only
 the prediction reads.
@@ -12,7 +13,8 @@ from equipoise.dynamics.sensitivities import LANES
 from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Square
 
-SIZE, N = 18, 15  # dth, dw, dr, dJ, db; the propagator moves the first 15, in one block
+SIZE, N = 21, 15  # dth, dw, dr, dJ, db, dk; the propagator moves the first 15, in one block
+COM_ROW, WARM_ROW = 6, 18  # where r and k, what a kelvin moves it by, begin
 ROW = 2 * LANES  # numbers from one row to the next
 
 
@@ -34,7 +36,7 @@ def give(P: Floats, covariance: Square) -> None:
 
 @part
 def coupled(covariance: Square) -> bool:
-    """Say whether the bias has to do with the rest."""
+    """Say whether bias or warmth has to do with the rest."""
     for i in range(N):
         for j in range(N, SIZE):
             if covariance[i, j] != 0.0:
@@ -54,6 +56,20 @@ def fill(P: Floats) -> None:
     for i in range(1, SIZE):
         for j in range(i):
             P[i * ROW + j] = P[j * ROW + i]
+
+
+@part
+def warm(P: Floats, kelvins: float) -> None:
+    """Write F P F^T for a platform that became warmer: r <- r + k dT."""
+    if kelvins == 0.0:
+        return
+    fill(P)
+    for a in range(3):
+        for j in range(SIZE):
+            P[(COM_ROW + a) * ROW + j] += kelvins * P[(WARM_ROW + a) * ROW + j]
+    for i in range(SIZE):
+        for a in range(3):
+            P[i * ROW + COM_ROW + a] += kelvins * P[i * ROW + WARM_ROW + a]
 
 
 @part
@@ -86,7 +102,7 @@ def add_block(P: Floats, A: Floats, B: Floats, sign: float, rows: int, first: in
 
 @part
 def add_product(P: Floats, A: Floats, B: Floats, sign: float, biased: bool) -> None:
-    """Add sign A^T B, which is symmetric; A and B are (3, 18), in rows as those of P."""
+    """Add sign A^T B, which is symmetric; A and B are (3, 21), in rows as those of P."""
     add_block(P, A, B, sign, LANES, 0)
     if biased:
         add_block(P, A, B, sign, SIZE, LANES)

@@ -15,6 +15,7 @@ import numpy as np
 from equipoise.actuators.sliding_masses import displacements_for, shift_by
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.predict_correct import COM
+from equipoise.estimation.tracker.warmth import heat_of, warmth_of
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
@@ -84,8 +85,10 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
     t = float(knowledge.fitted.problem.line.t[-1])
     inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
     covariance = knowledge.estimate.covariance_of((*knowledge.standing, *INERTIA))
-    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, covariance)
-    return replace(tracker.first_state(t, q, testbed, posterior), rate=rate)
+    warmth = warmth_of(knowledge.estimate, (*knowledge.standing, *INERTIA))
+    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, covariance, warmth)
+    first = tracker.first_state(t, q, testbed, posterior)
+    return replace(first, rate=rate, heat=heat_of(None, knowledge.recording))
 
 
 def standing(state: tracker.State, testbed: Testbed, displacement: Floats) -> Measured:
@@ -153,7 +156,7 @@ def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed)
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
     """Yield a move whenever one is made, and a verdict at the end."""
     testbed, end = bench.testbed, bench.time + options.duration
-    params = tracker.Params(torque=without_drift(knowledge.fitted.point.torque))
+    params = tracker.Params(torque=knowledge.fitted.point.torque)
     state, displacement = first_posterior(knowledge, testbed), knowledge.displacement
     course = [standing(state, testbed, displacement)]
     while bench.time < end - 1e-9:
@@ -179,13 +182,6 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
             yield Step("move", bench.time, why, fresh, move=move)
     judged = verdict_on(course, options, options.duration)
     yield Step("verify", bench.time, judged.reasons, verdict=judged)
-
-
-def without_drift(torque: Floats) -> Floats:
-    """Return torque coefficients without the drift, which the tracker follows by itself."""
-    kept = torque.copy()
-    kept[-3:] = 0.0
-    return kept
 
 
 def stop_step(bench: Bench, last: Measured) -> Step:
