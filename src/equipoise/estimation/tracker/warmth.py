@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.dynamics.timeline import straight_lines
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.estimate import Estimate
-from equipoise.model.recording import Recording, join
+from equipoise.model.recording import Recording, Samples, join
 from equipoise.model.torque_terms import GROUPS, typical_sizes
 
 THERMAL = GROUPS["thermal"]
@@ -49,11 +50,17 @@ def heat_of(before: Recording | None, recording: Recording) -> Recording:
 
 
 def heat_kept(heat: Recording, since: float) -> Recording:
-    """Return of the same what later rows need: the last temperature, and all switches."""
+    """Return of the same what later rows need: temperature from ``since`` (s) on, all switches.
+
+    The temperature at that moment is the one that was taken for it: what comes later does not
+    change how warm it was.
+    """
     temperature, lamp = heat.temperature, heat.lamp
     if temperature is not None and len(temperature):
-        first = int(np.searchsorted(temperature.t, since, side="right")) - 1
-        temperature = temperature.where(slice(max(first, 0), None))
+        first = straight_lines(temperature, np.array([since]), 1)
+        later = temperature.where(temperature.t > since)
+        t, values = np.append(since, later.t), np.vstack([first, later.values])
+        temperature = Samples(t, values)
     if lamp is not None and len(lamp):
         changes = np.diff(lamp.values[:, 0], prepend=np.nan) != 0
         lamp = lamp.where(changes | (lamp.t == lamp.t[-1]))
