@@ -40,6 +40,17 @@ class TrueLamp:
     time_constant: float | None = None  # s
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class TrueCoilPair:
+    """What a pair of coils of a cage really gives."""
+
+    name: str
+    gain: float = 1.0  # -, of the field it is driven by
+    axis_N: Vector3 | None = None  # unit vector, laboratory; None: as the testbed states it
+    deviation: float | None = None  # -, of the field at the magnetometer from that at the coils
+    # on the platform, relative; None: drawn within what the testbed states
+
+
 @dataclass(frozen=True, slots=True)
 class Gap:
     """Rows of the sensors that are missing, both ends included."""

@@ -27,7 +27,7 @@ from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.straight_lines import read_at
-from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Series1, Series3, Vector3
 from equipoise.model.bench_requests import check_duration
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
@@ -73,19 +73,12 @@ from equipoise.simulation.surroundings.lamp import (
     temperature_rows,
     warmth_since_start,
 )
+from equipoise.simulation.surroundings.magnetic_field import field_at, measured_field
 from equipoise.simulation.touches import Noted, Touch, noted
 
 REPORTS = 20.0  # Hz, chosen: how often devices report where no sensor sets the pace
 A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
 AT_ONCE = 1e-3  # s, chosen: a leg that begins so soon after another is the same way
-
-
-def with_field(testbed: Testbed, field_N: Vector3 | None) -> Testbed:
-    """Return the testbed in the magnetic field (T, laboratory axes) that there really is."""
-    known = testbed.magnetic_field
-    if known is None or field_N is None:
-        return testbed
-    return replace(testbed, magnetic_field=replace(known, field_N=field_N))
 
 
 class SimulatedBench:
@@ -102,12 +95,14 @@ class SimulatedBench:
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
         self._states_rng, self._field_rng = streams[6:8]
-        self._vector_rngs = dict[str, np.random.Generator](zip(CHANNELS, streams[8:11], strict=True))
+        self._vector_rngs = dict[str, np.random.Generator](
+            zip(CHANNELS, streams[8:11], strict=True)
+        )
         self._warm_rng = streams[11]
         self._devices = started(testbed)
         self.testbed, self.seed = testbed, seed  # as stated; of all that is drawn
         self.platform = draw_truth(testbed, rng)
-        self._vectors = vector_sensors(with_field(testbed, self.platform.field_N))
+        self._vectors = vector_sensors(testbed)
         self._sensors = (testbed.attitude, testbed.gyro, *self._vectors)
         body, truth, masses = self.platform.body, self.platform.truth, self.platform.masses
         self._body = rigid_body(body, testbed.gravity, self.platform.torque)
@@ -263,9 +258,10 @@ class SimulatedBench:
         platform = (self._body, self._maps, self._state, t, known)
         stop = self._stop if t[-1] > t[0] else NO_STOP
         events = (stop, truth.contacts, truth.com_steps)
-        if self.platform.field_N is None or not dipole.any():
+        if self.platform.field is None or not dipole.any():
             return run_through(*platform, *events)
-        return run_magnetised(*platform, *events, dipole, self.platform.field_N)
+        field_N = field_at(self.platform.field, self.testbed, self._devices, t)
+        return run_magnetised(*platform, *events, dipole, field_N)
 
     def _real(self, t: Series1) -> Floats:
         """Return where the masses really are, m from home, (n, k)."""
@@ -291,7 +287,9 @@ class SimulatedBench:
         found = Recording(attitude, rate, names, masses, source=source)
         if testbed.devices:
             found = self._with_devices(found, after)
-        found = replace(found, field=self._magnetometer(t, path, after), **self._warmth(after, since))
+        found = replace(
+            found, field=self._magnetometer(t, path, after), **self._warmth(after, since)
+        )
         return replace(found, **{s.channel: self._vector(s, t, path, after) for s in self._vectors})
 
     def _warmth(self, after: float, since: float) -> dict[str, Samples | None]:
@@ -305,7 +303,10 @@ class SimulatedBench:
     def _vector(self, sensor: VectorSensor, t: Series1, path: Path, after: float) -> Samples:
         """Return the rows of a sensor of a vector, stamped after a time (s)."""
         truth, stamps = self.platform.truth, samples(sensor.rate, after, self._time)
-        at = np.searchsorted(t, sampled_at(sensor, stamps))
+        moments = sampled_at(sensor, stamps)
+        at = np.searchsorted(t, moments)
+        if sensor.channel == "field":
+            sensor = replace(sensor, vector_N=self._field(moments[:, 0]))
         off = errors_of(sensor.channel, truth)
         rng = self._vector_rngs[sensor.channel]
         rows = vector_rows(path.y[at, :4], path.rate[at], sensor, off, rng)
@@ -314,12 +315,17 @@ class SimulatedBench:
 
     def _magnetometer(self, t: Series1, path: Path, after: float) -> Samples | None:
         """Return the magnetometer's rows, at the attitude of the node at or before each stamp."""
-        known, field_N = self.testbed.magnetic_field, self.platform.field_N
-        if known is None or known.noise is None or field_N is None:
+        known = self.testbed.magnetic_field
+        if known is None or known.noise is None:
             return None
         stamps = samples(self._reports, after, self._time)
         q = path.y[np.searchsorted(t, stamps, side="right") - 1, :4]
-        return Samples(stamps, field_rows(q, field_N, known.noise, self._field_rng))
+        return Samples(stamps, field_rows(q, self._field(stamps), known.noise, self._field_rng))
+
+    def _field(self, t: Series1) -> Series3:
+        """Return the magnetic field (n, 3) T at the magnetometer at times (s), laboratory axes."""
+        assert self.platform.field is not None
+        return measured_field(self.platform.field, self.testbed, self._devices, t)
 
     @property
     def _reports(self) -> float:

@@ -77,8 +77,9 @@ def samples(t, values) -> Samples:
 
 def test_what_later_rows_need_is_kept():
     """The temperature as it was at 2.5 s, what is later, and each switch with the last row."""
-    heat = Recording(temperature=samples([0.0, 1.0, 2.0, 3.0], [20.0, 21.0, 22.0, 23.0]),
-                     lamp=samples([0.0, 5.0, 7.0, 8.0, 9.0], [0.0, 0.0, 1.0, 1.0, 1.0]))  # fmt: skip
+    warm = samples([0.0, 1.0, 2.0, 3.0], [20.0, 21.0, 22.0, 23.0])
+    power = samples([0.0, 5.0, 7.0, 8.0, 9.0], [0.0, 0.0, 1.0, 1.0, 1.0])
+    heat = Recording(temperature=warm, lamp=power)
     kept = heat_kept(heat, 2.5)
     np.testing.assert_array_equal(kept.temperature.t, [2.5, 3.0])
     np.testing.assert_array_equal(kept.temperature.values[:, 0], [22.5, 23.0])
@@ -147,7 +148,8 @@ def test_a_lamp_that_is_recorded_is_foreseen():
     assert seen < unseen / 1.5
     assert known < unseen / 2.0
     calm, surprised = (
-        np.sqrt(np.mean(lamp.tracked(log, r, STILL, nothing)[0] ** 2)) for r in (log.recording, dark)
+        np.sqrt(np.mean(lamp.tracked(log, r, STILL, nothing)[0] ** 2))
+        for r in (log.recording, dark)
     )
     assert calm < surprised / 10.0
 

@@ -1,6 +1,7 @@
 """A lamp at the simulated bench: its warmth, the motion that follows, and what is recorded."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -67,10 +68,10 @@ def moved(t: np.ndarray) -> np.ndarray:
 
     def slope(now, y):
         w, (a, b, c, d) = y[4:] / J, y[:4]
-        qdot = 0.5 * np.array([-b * w[0] - c * w[1] - d * w[2], a * w[0] + c * w[2] - d * w[1],
-                               a * w[1] + d * w[0] - b * w[2], a * w[2] + b * w[1] - c * w[0]])  # fmt: skip
+        turn = [-b * w[0] - c * w[1] - d * w[2], a * w[0] + c * w[2] - d * w[1],
+                a * w[1] + d * w[0] - b * w[2], a * w[2] + b * w[1] - c * w[0]]  # fmt: skip
         weight = np.cross(10.0 * (r0 + K * warmth(now)), to_matrix(y[:4]).T @ g)
-        return np.append(qdot, np.cross(y[4:], w) + weight)
+        return np.append(0.5 * np.array(turn), np.cross(y[4:], w) + weight)
 
     roll, pitch, yaw = START["attitude"] / 2
     (cr, cp, cy), (sr, sp, sy) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
@@ -79,7 +80,7 @@ def moved(t: np.ndarray) -> np.ndarray:
     y = np.append(q, J * START["rate"])
     edges = [0.0, 2.0, 9.5, 20.0, 31.0, 40.0]  # its slope breaks where the lamp is switched
     found = []
-    for a, b in zip(edges[:-1], edges[1:], strict=True):
+    for a, b in pairwise(edges):
         part = t[(t >= a) & (t < b)]
         run = solve_ivp(slope, (a, b), y, "DOP853", rtol=1e-12, atol=1e-14, dense_output=True)
         found.append(run.sol(part).T)
@@ -106,8 +107,8 @@ def test_how_it_is_read_changes_nothing(lit):
         one, other = getattr(whole, name), getattr(parts, name)
         np.testing.assert_array_equal(one.t, other.t)
         np.testing.assert_allclose(one.values, other.values, rtol=0, atol=1e-15)
-    warm = [read_at(whole.rate.t, s.t, s.values)
-            for s in (lamp_warmth(each.lamp, Lamp(3.0, 5.0), 30.0) for each in (whole, parts))]  # fmt: skip
+    lines = [lamp_warmth(each.lamp, Lamp(3.0, 5.0), 30.0) for each in (whole, parts)]
+    warm = [read_at(whole.rate.t, line.t, line.values) for line in lines]
     np.testing.assert_allclose(warm[0], warm[1], atol=2e-4)
     exact = [warmth(t) for t in whole.rate.t]
     np.testing.assert_allclose(warm[0][:, 0], exact, atol=1e-3)

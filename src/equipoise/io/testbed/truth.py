@@ -8,6 +8,7 @@ from pydantic import Field
 
 from equipoise.io.testbed.inertia_check import check_inertia
 from equipoise.io.testbed.platform import Platform
+from equipoise.io.testbed.true_surroundings import TrueCoilPair, TrueLamp
 from equipoise.io.toml.key_types import (
     Direction,
     Five,
@@ -113,23 +114,6 @@ class Gap(RecordTable):
         return record_of(defects.Gap, self, where)
 
 
-class TrueLamp(RecordTable):
-    """When the lamp is on, and how it really warms the platform."""
-
-    on_s: list[Pair] = Field(
-        min_length=1, description="from when to when; what is on at 0 has been on for long"
-    )
-    warms_K: Positive | None = Field(None, description="in the end; left out: as [lamp] has it")
-    time_constant_s: Positive | None = Field(None, description="left out: as [lamp] has it")
-
-    def record(self, where: str) -> defects.TrueLamp:
-        """Return the lamp, whose times must grow."""
-        t = np.array(self.on_s).ravel()
-        if t[0] < 0 or np.any(np.diff(t) <= 0):
-            raise InputError(f"{where}.on_s", f"{self.on_s}", "times from 0 on, each later")
-        return record_of(defects.TrueLamp, self, where)
-
-
 class Truth(RecordTable):
     """What the simulated bench is made of; read by the simulator alone."""
 
@@ -186,13 +170,14 @@ class Truth(RecordTable):
     )
     mass_lag_s: NotNegative = Field(0.0, description="masses are so far behind their report")
     field_uT: Annotated[Triple | None, Holds("field_N")] = Field(
-        None, description="magnetic, laboratory axes, as it really is"
+        None, description="magnetic, laboratory axes, as it really is; beside a cage, without it"
     )
     fault: Annotated[list[Fault], Holds("faults")] = Field([])
     drive: Annotated[list[Drive], Holds("drives")] = Field([])
     contact: Annotated[list[Contact], Holds("contacts")] = Field([])
     com_step: Annotated[list[ComStep], Holds("com_steps")] = Field([])
     gap: Annotated[list[Gap], Holds("gaps")] = Field([])
+    coil_pair: Annotated[list[TrueCoilPair], Holds("cage")] = Field([])
     lamp: TrueLamp | None = None
 
     @classmethod
@@ -242,20 +227,6 @@ def check_true_drives(truth: Truth, masses: Sequence[str], where: str) -> None:
         _check_known(name, masses, here)
         if name in names[:i]:
             raise InputError(f"{here}.mass", f"a second '{name}'", "one table for each mass")
-
-
-def check_true_lamp(truth: Truth, is_stated: bool, where: str) -> None:
-    """Raise InputError for warmth of no lamp, or a lamp of which too little is known."""
-    lamp = truth.lamp
-    if lamp is None:
-        if truth.thermal_um_K is not None:
-            wanted = "a table [truth.lamp] with on_s, from when to when it is on"
-            raise InputError(f"{where}.thermal_um_K", "a warmth, but nothing that warms", wanted)
-        return
-    for key in ("warms_K", "time_constant_s"):
-        if getattr(lamp, key) is None and not is_stated:
-            wanted = "what the lamp really does, or a table [lamp] that states it"
-            raise InputError(f"{where}.lamp.{key}", "nothing", wanted)
 
 
 def _check_known(name: str, masses: Sequence[str], where: str) -> None:

@@ -31,9 +31,8 @@ def lamp_of(stated: Lamp | None, true: TrueLamp | None) -> Followers:
         warms, slow = warms or stated.warms, slow or stated.time_constant
     assert warms is not None
     assert slow is not None
-    start = warms * power_at(true, np.zeros(1))
-    found = at_rest(np.array([slow]), np.array([np.inf]), np.zeros(1))
-    found = Followers(found.lag, found.limit, found.t, start, start, found.Y, found.ends)
+    start = warms * power_at(true, np.zeros(1))[0]
+    found = at_rest(np.array([slow]), np.array([np.inf]), np.zeros(1), start)
     for t in switches(true):
         found = driven(found, float(t), {0: warms * float(power_at(true, t[None])[0, 0])}, {})
     return found
