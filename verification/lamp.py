@@ -114,15 +114,15 @@ def identified(log: Logged) -> tuple[Array, float]:
 def rows_of(runs: Sequence[Run]) -> tuple[Row, ...]:
     """Return the rows."""
     n, z = len(runs), np.array([each.z for each in runs])
-    seen = z[np.isfinite(z[:, 0])]
+    supported = z[np.isfinite(z[:, 0])]
     slow = np.array([each.slow for each in runs])
     rms, of_track = np.array([each.tracked for each in runs]), np.array([r.tracked_z for r in runs])
     ratio = np.median(rms[:, 1] / rms[:, 0])
     before = np.median(rms[:, 1] / rms[:, 2])
     band = share_band(COVER, 0.95, n, 3)
-    share = [float(np.mean(np.abs(part) < 1.96)) for part in (seen, of_track)]
+    share = [float(np.mean(np.abs(part) < 1.96)) for part in (supported, of_track)]
     return (
-        at_least("identify: records that support the term", len(seen) / n, 0.95, ".1%"),
+        at_least("identify: records that support the term", len(supported) / n, 0.95, ".1%"),
         between("identify: 95 % intervals hold coefficients and com", share[0], band, ".1%"),
         at_most(f"identify: time constant of {SLOW:g} s, stated {STATED:g} s; rms error, s",
                 float(np.sqrt(np.nanmean((slow - SLOW) ** 2))), 6.0),

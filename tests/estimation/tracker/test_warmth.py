@@ -95,7 +95,7 @@ def test_drift_and_warmth_are_left_to_the_tracker():
     assert steady(None) is None
 
 
-def test_an_estimate_that_saw_warmth_is_the_prior():
+def test_an_estimate_of_warmth_is_the_prior():
     """With its covariance with com and inertia; one that did not leaves what benches have."""
     names = GROUPS["thermal"]
     three = tuple(Parameter(n, "m/K", v, 1e-8) for n, v in zip(names, (1.0, 2.0, 3.0), strict=True))
@@ -142,11 +142,11 @@ def test_a_lamp_that_is_recorded_is_foreseen():
     log = logged(5)
     dark, nothing = replace(log.recording, lamp=None), np.zeros(3)
     cases = ((log.recording, nothing), (dark, nothing), (log.recording, log.thermal))
-    seen, unseen, known = (
+    recorded, dark_error, known = (
         np.sqrt(np.mean(lamp.tracked(log, record, Params(), k)[0] ** 2)) for record, k in cases
     )
-    assert seen < unseen / 1.5
-    assert known < unseen / 2.0
+    assert recorded < dark_error / 1.5
+    assert known < dark_error / 2.0
     calm, surprised = (
         np.sqrt(np.mean(lamp.tracked(log, r, STILL, nothing)[0] ** 2))
         for r in (log.recording, dark)
