@@ -116,12 +116,16 @@ class MagneticField:
     noise: float | None = None  # T, one sd per axis of a magnetometer's row; None: there is none
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Lamp:
-    """What warms the platform while it is on, towards an end, as 1 - exp(-t / time_constant)."""
+    """What warms the platform while it is on, towards an end, as 1 - exp(-t / time_constant).
+
+    With a direction it is what a sun sensor sees, while it is on.
+    """
 
     warms: float  # K, in the end
     time_constant: float  # s
+    direction_N: Vector3 | None = None  # unit vector to it, laboratory axes; None: a heater
 
 
 @dataclass(frozen=True, slots=True)

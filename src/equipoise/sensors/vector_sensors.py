@@ -44,11 +44,20 @@ def vector_sensors(testbed: Testbed) -> tuple[VectorSensor, ...]:
     if inertial is not None:
         up, place = np.array([0.0, 0.0, testbed.gravity]), inertial.place
         found.append(_vector_sensor("accelerometer", inertial, inertial.bias_sd, up, place))
-    if sun is not None:
-        found.append(_vector_sensor("sun", sun, 0.0, sun.direction_N, centre))
+    direction_N = sun_direction(testbed)
+    if sun is not None and direction_N is not None:
+        found.append(_vector_sensor("sun", sun, 0.0, direction_N, centre))
     if magnetic is not None and field_N is not None:
         found.append(_vector_sensor("field", magnetic, magnetic.bias_sd, field_N, centre))
     return tuple(found)
+
+
+def sun_direction(testbed: Testbed) -> Vector3 | None:
+    """Return where the lamp of a sun sensor stands, a unit vector in laboratory axes."""
+    sun, lamp = testbed.sun, testbed.lamp
+    if sun is not None and sun.direction_N is not None:
+        return sun.direction_N
+    return None if lamp is None else lamp.direction_N
 
 
 def _vector_sensor(

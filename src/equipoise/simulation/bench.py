@@ -67,6 +67,7 @@ from equipoise.simulation.noise_torque import extended, forgotten, start_noise, 
 from equipoise.simulation.sensor_errors import misfelt, misread, whole, whole_angles, with_bad_rows
 from equipoise.simulation.stop import NO_STOP, stop_at
 from equipoise.simulation.surroundings.lamp import (
+    is_lit,
     lamp_nodes,
     lamp_of,
     power_rows,
@@ -311,6 +312,8 @@ class SimulatedBench:
         rng = self._vector_rngs[sensor.channel]
         rows = vector_rows(path.y[at, :4], path.rate[at], sensor, off, rng)
         kept = outside(stamps, truth.gaps)
+        if sensor.channel == "sun":
+            kept &= is_lit(self.testbed.lamp, truth.lamp, moments[:, 0])
         return Samples(stamps[kept], rows[kept])
 
     def _magnetometer(self, t: Series1, path: Path, after: float) -> Samples | None:

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from equipoise.io.testbed.testbed_file import parse_testbed, text_of_testbed
-from equipoise.model.devices import Lamp, Thermometer
+from equipoise.model.devices import Thermometer
 from equipoise.model.errors import InputError
+from equipoise.sensors.vector_sensors import sun_direction
 from tests.io.testbed.test_devices import PLATFORM
 
 LAMP = """
@@ -26,7 +27,8 @@ time_constant_s = 75
 def test_a_lamp_and_a_thermometer_are_read_in_si() -> None:
     """um/K become m/K; what is left out of the true lamp is as stated."""
     testbed = parse_testbed(PLATFORM + LAMP, "t")
-    assert testbed.lamp == Lamp(3.0, 90.0)
+    assert testbed.lamp is not None
+    assert (testbed.lamp.warms, testbed.lamp.time_constant) == (3.0, 90.0)
     assert testbed.thermometer == Thermometer(2.0, 0.05)
     truth = testbed.truth
     assert truth is not None
@@ -41,7 +43,9 @@ def test_a_lamp_and_a_thermometer_are_read_in_si() -> None:
 def test_they_come_back_as_they_were_written() -> None:
     first = parse_testbed(PLATFORM + LAMP, "t")
     again = parse_testbed(text_of_testbed(first), "t")
-    assert again.lamp == first.lamp
+    assert again.lamp is not None
+    assert (again.lamp.warms, again.lamp.time_constant) == (3.0, 90.0)
+    assert again.lamp.direction_N is None
     assert again.thermometer == first.thermometer
     assert again.truth is not None
     assert first.truth is not None
@@ -50,6 +54,30 @@ def test_they_come_back_as_they_were_written() -> None:
     np.testing.assert_array_equal(again.truth.lamp.on, first.truth.lamp.on)
     assert again.truth.lamp.time_constant == 75.0
     assert again.truth.torque == pytest.approx(first.truth.torque, rel=1e-14)
+
+
+SUN = """
+[lamp]
+warms_K = 3
+time_constant_s = 90
+direction = [0, 3, 4]
+[sensor.sun]
+rate_hz = 5
+noise = 0.01
+"""
+
+
+def test_the_direction_to_the_lamp_is_stated_once() -> None:
+    """[lamp] has it for the sun sensor, unless that has one of its own; one of them must."""
+    for text in (SUN, text_of_testbed(parse_testbed(PLATFORM + SUN, "t"))):
+        testbed = parse_testbed(text if "[platform]" in text else PLATFORM + text, "t")
+        assert testbed.sun is not None
+        assert testbed.sun.direction_N is None
+        np.testing.assert_allclose(sun_direction(testbed), [0, 0.6, 0.8], rtol=1e-15)
+    own = parse_testbed(PLATFORM + SUN + "direction = [0, 0, 1]\n", "t")
+    np.testing.assert_array_equal(sun_direction(own), [0, 0, 1])
+    with pytest.raises(InputError, match=r"sensor\.sun\.direction: found nothing"):
+        parse_testbed(PLATFORM + SUN.replace("direction = [0, 3, 4]\n", ""), "t")
 
 
 @pytest.mark.parametrize(

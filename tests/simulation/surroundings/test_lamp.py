@@ -13,6 +13,7 @@ from equipoise.maths.straight_lines import read_at
 from equipoise.model.defects import TrueLamp
 from equipoise.model.devices import Lamp, Thermometer
 from equipoise.model.recording import join
+from equipoise.model.vector_sensors import SunSensor
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.surroundings import lamp as lamps
 
@@ -26,8 +27,8 @@ START = {"attitude": np.array([0.1, -0.05, 0.7]), "rate": np.array([0.02, -0.01,
 def lit(testbed):
     """Return a maker of testbeds under a lamp; its com at the start hangs 1 mm below."""
 
-    def make(lamp=ON, **changes):
-        truth = {**START, "lamp": lamp, "torque": THERMAL}
+    def make(switched=ON, **changes):
+        truth = {**START, "lamp": switched, "torque": THERMAL}
         return testbed((1e-4, 0.0, -1e-3), truth=truth, **changes)
 
     return make
@@ -138,6 +139,19 @@ def test_noise_of_a_thermometer_is_as_stated(lit):
     setup = lit(None, thermometer=Thermometer(50.0, 0.2))
     rows = SimulatedBench(setup, 1).read(40.0).temperature.values
     assert np.std(rows - 20.0) == pytest.approx(0.2, rel=0.1)
+
+
+def test_a_sun_sensor_has_rows_while_its_lamp_is_on(lit):
+    """On from 2 to 9.5 s, off from then; a heater's switch takes no row, nor does no switch."""
+    up = np.array([0.0, 0.0, 1.0])
+    sun = SunSensor(2.0, 0.0, None, delay=0.25)
+    bench = SimulatedBench(lit(sun=sun, lamp=Lamp(3.0, 5.0, up)), 0)
+    rows = bench.read(12.0).sun
+    np.testing.assert_array_equal(rows.t, np.arange(2.5, 9.6, 0.5))
+    assert len(bench.read(5.0).sun) == 0
+    for other in (lit(sun=replace(sun, direction_N=up), lamp=Lamp(3.0, 5.0)),
+                  lit(None, sun=sun, lamp=Lamp(3.0, 5.0, up))):  # fmt: skip
+        assert len(SimulatedBench(other, 0).read(12.0).sun) == 25
 
 
 def test_a_true_lamp_may_differ_from_the_stated_one(lit):

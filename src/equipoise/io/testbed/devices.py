@@ -155,6 +155,10 @@ class Lamp(RecordTable):
 
     warms_K: Positive = Field(description="what it shines on, in the end; a guess will do")
     time_constant_s: Positive
+    direction: Annotated[Direction | None, Holds("direction_N")] = Field(
+        None,
+        description="to it, laboratory axes, z up: [sensor.sun] has rows while it is on",
+    )
 
 
 class Thermometer(RecordTable):

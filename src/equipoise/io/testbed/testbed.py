@@ -152,6 +152,7 @@ def _check(file: TestbedFile, source: str) -> None:
     devices.check_device_names({kind: getattr(file, kind) for kind in kinds}, source)
     check_weights(file.weight, file.weight_grid, source)
     _check_field(file, source)
+    _check_sun(file, source)
     _check_assumed(file, source)
     if file.truth is not None:
         check_true_drives(file.truth, masses, f"{source}: truth")
@@ -180,6 +181,18 @@ def _check_field(file: TestbedFile, source: str) -> None:
     if file.truth is not None and file.truth.field_uT is not None:
         wanted = "a table [magnetic_field] with the nominal field, or [[coil_pair]]"
         raise InputError(f"{source}: truth.field_uT", "a true field but none that is known", wanted)
+
+
+def _check_sun(file: TestbedFile, source: str) -> None:
+    sun, lamp = file.sensor.sun, file.lamp
+    if (
+        sun is None
+        or sun.direction is not None
+        or (lamp is not None and lamp.direction is not None)
+    ):
+        return
+    wanted = "the direction to its lamp, here or in [lamp], in laboratory axes"
+    raise InputError(f"{source}: sensor.sun.direction", "nothing", wanted)
 
 
 def _check_assumed(file: TestbedFile, source: str) -> None:

@@ -11,7 +11,7 @@ the lamp is switched and at both ends of each read.
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Series1
+from equipoise.model.arrays import Bools, Floats, Series1
 from equipoise.model.defects import TrueLamp
 from equipoise.model.devices import Lamp, Thermometer
 from equipoise.model.recording import Samples
@@ -76,6 +76,16 @@ def power_rows(true: TrueLamp | None, start: float, end: float) -> Samples | Non
     t = switches(true)
     t = np.unique(np.concatenate([[start], t[(t > start) & (t < end)], [end]]))
     return Samples(t, power_at(true, t))
+
+
+def is_lit(stated: Lamp | None, true: TrueLamp | None, t: Series1) -> Bools:
+    """Say at which times (s) the lamp that a sun sensor sees is on; always where it has no switch.
+
+    A lamp without a direction is a heater, and has nothing to do with it.
+    """
+    if stated is None or stated.direction_N is None or true is None:
+        return np.ones(len(t), dtype=np.bool_)
+    return power_at(true, t)[:, 0] > 0
 
 
 def temperature_rows(
