@@ -15,6 +15,7 @@ from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.predict_correct import WARM
 from equipoise.io.testbed.presets import read_preset
+from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.defects import TrueLamp
 from equipoise.model.devices import Lamp
 from equipoise.model.estimate import COM
@@ -33,6 +34,7 @@ THERMAL = 1e-6  # m/K, in a random direction
 SECONDS, EVERY = 600.0, 5.0  # s
 COM_P = np.array([5e-6, -8e-6, -60e-6])  # m, of a platform that hangs
 STILL = 1e-9, 1e-8  # m/sqrt(s), N m sqrt(s), chosen: nothing but warmth moves it
+ROUGH = 0.02  # of a moment, one sd of what is stated to identify
 TERMS = GROUPS["thermal"]
 Array = NDArray[np.float64]
 
@@ -58,7 +60,7 @@ class Run(NamedTuple):
 
 
 def logged(seed: int) -> Logged:
-    """Return what a platform did under the lamp, its inertia known."""
+    """Return what a platform did under the lamp, its inertia known to the tracker."""
     preset, way = read_preset("sputnix"), np.random.default_rng([seed, 3]).normal(size=3)
     way /= np.linalg.norm(way)
     thermal = THERMAL * way
@@ -101,14 +103,22 @@ def run(seed: int) -> Run:
 
 def identified(log: Logged) -> tuple[Array, float]:
     """Return errors of coefficients and com in sd, and the time constant that was found, s."""
-    testbed = replace(log.testbed, lamp=Lamp(WARMER, STATED), inertia_sd=0.02)
-    found = estimate(log.recording, testbed, Params())
+    testbed = replace(roughly_known(log), lamp=Lamp(WARMER, STATED))
+    found = estimate(log.recording, testbed, Params(use_prior=True))
     if not found.has(TERMS[0]):
         return np.full(6, np.nan), np.nan
     names, true = (*TERMS, *COM), np.concatenate([log.thermal, log.testbed.truth.com])
     z = (found.values(names) - true) / np.sqrt(np.diag(found.covariance_of(names)))
     reasons = [r for r in found.outcome.reasons if r.code is EstimateReason.LAMP_RESPONSE]
     return z, reasons[0].numbers["found"] if reasons else STATED
+
+
+def roughly_known(log: Logged) -> Testbed:
+    """Return the testbed with an inertia that is off by as much as is stated."""
+    body, testbed = log.testbed.body, replace(log.testbed, inertia_sd=ROUGH)
+    off = np.random.default_rng([int(1e9 * log.thermal[0]) % 2**32, 5]).normal(size=6)
+    inertia = pack_symmetric(body.inertia_P) + ROUGH * off * element_sizes(body.inertia_P)
+    return replace(testbed, body=replace(body, inertia_P=unpack_symmetric(inertia)))
 
 
 def rows_of(runs: Sequence[Run]) -> tuple[Row, ...]:

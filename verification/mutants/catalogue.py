@@ -34,6 +34,9 @@ MODEL = _of("model", *(
         ("body.mass > 0 and smallest", "body.mass > -1 and smallest"),
     )
 ), (
+    "testbed.py", "return found + given @", "return found - given @",
+    "io/testbed/test_devices.py::test_a_cage_is_read_in_si",
+), (
     "growing_times.py", "found += [(k + 1, length)", "found += [(k, length)",
     "io/recording/test_bad_rows.py",
 ), (
@@ -289,15 +292,29 @@ ESTIMATION = _of(
     ("filters/unscented.py", "total -= L[j, k] * L[j, k]", "total += L[j, k] * L[j, k]",
      "estimation/filters/test_filter_kernels.py"),
     ("tracker/stored_covariance.py", "P[i * ROW + COM_ROW + a] += kelvins",
-     "P[i * ROW + COM_ROW + a] -= kelvins", "estimation/tracker/test_warmth.py"),
+     "P[i * ROW + COM_ROW + a] -= kelvins", "estimation/tracker/test_warmth.py::"
+     "test_a_warmer_platform_is_displaced_by_what_a_kelvin_does"),
     ("tracker/predict_correct.py", "end[AT + a] += kelvins", "end[AT + a] -= kelvins",
-     "estimation/tracker/test_warmth.py"),
+     "estimation/tracker/test_warmth.py::"
+     "test_a_warmer_platform_is_displaced_by_what_a_kelvin_does"),
     ("tracker/event_signatures.py", "X[COM_ROW * COLUMNS + c] += kelvins",
-     "X[COM_ROW * COLUMNS + c] -= kelvins", "estimation/tracker/test_warmth.py"),
+     "X[COM_ROW * COLUMNS + c] -= kelvins", "estimation/tracker/test_warmth.py::"
+     "test_signatures_of_events_are_displaced_alike"),
     ("tracker/measurements.py", "known[:, KNOWN_WARMTH] += a.known[-1",
-     "known[:, KNOWN_WARMTH] -= a.known[-1", "estimation/tracker/test_warmth.py"),
+     "known[:, KNOWN_WARMTH] -= a.known[-1", "estimation/tracker/test_warmth.py::"
+     "test_warmth_goes_on_from_one_piece_to_the_next"),
     ("tracker/warmth.py", "np.append(since, later.t)", "np.append(since - 1.0, later.t)",
-     "estimation/tracker/test_warmth.py"),
+     "estimation/tracker/test_warmth.py::"
+     "test_what_later_rows_need_is_kept"),
+    ("output_error/input_errors.py", "pair.nonuniformity / 3**0.5", "pair.nonuniformity",
+     "estimation/output_error/test_input_errors.py::"
+     "test_a_cage_moves_the_torque_of_coils_by_what_it_is_off_by"),
+    ("output_error/input_errors.py", "recording.torque.values + torque.values - stated",
+     "recording.torque.values - torque.values + stated",
+     "estimation/output_error/test_input_errors.py::"
+     "test_a_cage_moves_the_torque_of_coils_by_what_it_is_off_by"),
+    ("motion/observed_vectors.py", "* len(measured) ** 0.5", "* 1.0",
+     "estimation/motion/test_field_of_a_cage.py"),
     ("tracker/noise_level.py", "min(surprise / 3.0, BOUND) - MEAN",
      "min(surprise / 3.0, BOUND) + MEAN", "estimation/tracker/test_consistency.py"),
 )  # fmt: skip
@@ -308,6 +325,17 @@ SIMULATION = _of(
      "return warmth_at(lamp, t) + warmth_at", "simulation/surroundings/test_lamp.py"),
     ("surroundings/lamp.py", "return (changes % 2)", "return ((changes + 1) % 2)",
      "simulation/surroundings/test_lamp.py"),
+    ("surroundings/magnetic_field.py", "background + y[:", "background - y[:",
+     "simulation/surroundings/test_magnetic_field.py"),
+    ("surroundings/magnetic_field.py", "(1.0 + field.deviation", "(1.0 - field.deviation",
+     "simulation/surroundings/test_magnetic_field.py"),
+    ("surroundings/magnetic_field.py", "return real.gain * (", "return (",
+     "simulation/surroundings/test_magnetic_field.py"),
+    ("devices.py", "for i, each in enumerate(testbed.devices) if not isinstance",
+     "for i, each in enumerate(testbed.devices) if isinstance",
+     "simulation/surroundings/test_magnetic_field.py"),
+    ("surroundings/lamp.py", "return power_at(true, t)[:, 0] > 0",
+     "return power_at(true, t)[:, 0] == 0", "simulation/surroundings/test_lamp.py"),
     ("bench.py", "moved = drift + slipped + warmth", "moved = drift + slipped - warmth",
      "simulation/surroundings/test_lamp.py"),
     ("camera_and_gyro.py", "to_matrix(exponential(off.mounting))",

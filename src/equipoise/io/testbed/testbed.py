@@ -185,11 +185,8 @@ def _check_field(file: TestbedFile, source: str) -> None:
 
 def _check_sun(file: TestbedFile, source: str) -> None:
     sun, lamp = file.sensor.sun, file.lamp
-    if (
-        sun is None
-        or sun.direction is not None
-        or (lamp is not None and lamp.direction is not None)
-    ):
+    stated = lamp is not None and lamp.direction is not None
+    if sun is None or sun.direction is not None or stated:
         return
     wanted = "the direction to its lamp, here or in [lamp], in laboratory axes"
     raise InputError(f"{source}: sensor.sun.direction", "nothing", wanted)
