@@ -196,6 +196,13 @@ def turned_by(part: Samples | None, whole: Samples | None, matrix: Matrix3) -> S
     return replace(whole, values=whole.values + part.values @ matrix.T)
 
 
+def changes_of(gain_sd: float, mounting_sd: float) -> list[tuple[str, float, str, Matrix3]]:
+    """Return gain and mounting, each with its sd, an axis, and the matrix M of its change M h."""
+    turned = zip("xyz", (np.cross(axis, AXES).T for axis in AXES), strict=True)
+    gain = ("gain", gain_sd, "", AXES)
+    return [gain, *(("mounting", mounting_sd, axis, turn) for axis, turn in turned)]
+
+
 def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield gain and mounting of each device, by its part of the known momentum and torque."""
     if recording.devices is None:
@@ -203,10 +210,7 @@ def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     for device in (*testbed.wheels, *testbed.cmgs, *testbed.magnetorquers, *testbed.jets):
         single = alone(testbed, device)
         h, tau = stored_momentum(recording, single), known_torque(recording, single)
-        turned = zip("xyz", (np.cross(axis, AXES).T for axis in AXES), strict=True)
-        changes = [("gain", device.gain_sd, "", AXES)]
-        changes += [("mounting", device.mounting_sd, axis, turn) for axis, turn in turned]
-        for what, sd, axis, matrix in changes:
+        for what, sd, axis, matrix in changes_of(device.gain_sd, device.mounting_sd):
             momentum = turned_by(h, recording.momentum, STEP * sd * matrix)
             torque = turned_by(tau, recording.torque, STEP * sd * matrix)
             driven = replace(recording, momentum=momentum, torque=torque)
@@ -225,10 +229,7 @@ def cage_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     pairs, stated = testbed.coil_pairs, known_torque(recording, testbed)
     for i, pair in enumerate(pairs):
         gain_sd = float(np.hypot(pair.gain_sd, pair.nonuniformity / 3**0.5))
-        turned = zip("xyz", (np.cross(axis, AXES).T for axis in AXES), strict=True)
-        changes = [("gain", gain_sd, "", AXES)]
-        changes += [("mounting", pair.mounting_sd, axis, turn) for axis, turn in turned]
-        for what, sd, axis, matrix in changes:
+        for what, sd, axis, matrix in changes_of(gain_sd, pair.mounting_sd):
             other = replace(pair, axis_N=pair.axis_N + STEP * sd * matrix @ pair.axis_N)
             bent = replace(testbed, coil_pairs=(*pairs[:i], other, *pairs[i + 1 :]))
             torque = known_torque(recording, bent)
