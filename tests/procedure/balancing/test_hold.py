@@ -5,10 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
-from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
+from equipoise.model.defects import TrueLamp
+from equipoise.procedure.balancing.hold import (
+    HoldOptions,
+    balance_and_hold,
+    first_posterior,
+    standing,
+)
+from equipoise.procedure.steps.joint_fit import learn
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
+from verification import lamp
 
 MINUTES = thorough.count(2, 1)
 HOLDING = HoldOptions(duration=60.0 * MINUTES)
@@ -36,3 +45,19 @@ def test_the_hold_lasts_for_the_requested_time(held):
     _, steps = held
     balanced = [step for step in steps[:-1] if step.verdict is not None][-1]
     assert steps[-1].time - balanced.time == pytest.approx(60.0 * MINUTES, abs=1e-6)
+
+
+def test_the_tracker_goes_on_under_a_lamp_that_is_on():
+    """By the coefficients of the fit, and its switch before the hold: com within 4 sd later."""
+    bed = lamp.roughly_known(lamp.logged(0))
+    lit = TrueLamp(np.array([[20.0, 400.0]]))
+    bed = replace(bed, truth=replace(bed.truth, lamp=lit))
+    bench = SimulatedBench(bed, 1)
+    knowledge = learn(None, bench.read(100.0), bed)
+    state = first_posterior(knowledge, bed)
+    np.testing.assert_array_equal(state.thermal, knowledge.estimate.values(lamp.TERMS))
+    params = tracker.Params(torque=knowledge.fitted.point.torque)
+    state = tracker.track(bench.read(100.0), bed, params, state).end
+    held = standing(state, bed, knowledge.displacement)
+    error = (held.com - bench.com) / np.sqrt(np.diag(held.covariance))
+    assert np.abs(error).max() < 4.0
