@@ -143,7 +143,7 @@ class MujocoBench:
         if self._testbed.magnetic_field is None or not self._dipole.any():
             return self._nothing
         moment = self._coil_axes @ self._dipole
-        field = matrix(self._data.qpos[:4]).T @ self._testbed.magnetic_field.field_N
+        field = matrix(self._data.qpos[:4]).T @ self._testbed.field_N()
         torque = np.empty(3)
         mujoco.mju_cross(torque, moment, field)
         return torque

@@ -8,7 +8,14 @@ import pytest
 
 from tests.oracle.defects import COM_STEPS, CONTACTS, HEADING
 from tests.support import thorough
-from verification import defective_logs, efficiency, real_record, tracker_honesty, tracker_knows
+from verification import (
+    defective_logs,
+    efficiency,
+    lamp,
+    real_record,
+    tracker_honesty,
+    tracker_knows,
+)
 
 
 def test_fit_is_at_the_bound_and_its_intervals_are_honest() -> None:
@@ -24,6 +31,11 @@ def test_tracker_is_at_the_bound_and_honest() -> None:
 def test_tracker_knows_what_it_does_not_know() -> None:
     """Some runs of each kind: doubtful inertia, contacts, steps, a gap, loud noise."""
     assert tracker_knows.measure(range(thorough.count(8, 3))).missed == ()
+
+
+def test_a_lamp_is_found_by_its_switch_and_foreseen() -> None:
+    """Coefficients, time constant and com within their intervals; the tracker's error halved."""
+    assert lamp.measure(range(thorough.count(40, 2))).missed == ()
 
 
 real_recording = pytest.mark.skipif(

@@ -9,8 +9,8 @@ Lee et al., section V.) They are the known side of the equations that identify t
 
 Rates of gimbals are differences of angles over the neighbouring rows, of second order in their
 spacing; noise of an encoder comes through as gimbal_inertia noise / spacing. The field is the
-magnetometer's, or the testbed's, turned into body axes by the measured attitude at the rows'
-stamps: pass attitudes stamped at their exposure.
+magnetometer's, or the testbed's with what a cage reports, turned into body axes by the measured
+attitude at the rows' stamps: pass attitudes stamped at their exposure.
 
 Pulses of jets between two rows are lost: a row within each is needed.
 """
@@ -68,12 +68,23 @@ def field_at(t: Series1, recording: Recording, testbed: Testbed) -> Series3:
     measured = recording.field
     if measured is not None and len(measured):
         return read_at(t, measured.t, measured.values)
-    known, attitude = testbed.magnetic_field, recording.attitude
-    if known is None or attitude is None or not len(attitude):
+    attitude = recording.attitude
+    known = None
+    if attitude is not None and len(attitude):
+        known = testbed.field_N(cage_at(attitude.t, recording, testbed))
+    if known is None or attitude is None:
         wanted = "a magnetometer's rows, or a known field and an attitude"
         raise InputError(recording.source or "recording", "no magnetic field", wanted)
-    turned: Floats = known.field_N @ to_matrix(attitude.values)
+    turned: Floats = np.einsum("...i,...ij->...j", known, to_matrix(attitude.values))
     return read_at(t, attitude.t, turned)
+
+
+def cage_at(t: Series1, recording: Recording, testbed: Testbed) -> Floats | None:
+    """Return the fields (n, k) T that the coil pairs of a cage reported; None: as at the start."""
+    rows = recording.devices
+    if not testbed.coil_pairs or rows is None or not len(rows):
+        return None
+    return read_at(t, rows.t, reported(recording, testbed.coil_pairs))
 
 
 def known_torque(recording: Recording, testbed: Testbed) -> Samples | None:

@@ -41,13 +41,22 @@ def by_lamp(recording: Recording, testbed: Testbed) -> bool:
     return testbed.lamp is not None and recording.temperature is None and is_logged
 
 
-def temperature_of(recording: Recording, testbed: Testbed) -> Samples | None:
-    """Return the temperature (degC, or K above the air's) as recorded, or as the lamp had it."""
+def temperature_until(recording: Recording, testbed: Testbed, end: float) -> Samples | None:
+    """Return the temperature (degC, or K above the air's) as recorded, or as the lamp had it.
+
+    That by the lamp reaches to ``end`` (s).
+    """
     if not by_lamp(recording, testbed):
         return recording.temperature
     assert recording.lamp is not None
     assert testbed.lamp is not None
-    return lamp_warmth(recording.lamp, testbed.lamp, recording.span[1])
+    return lamp_warmth(recording.lamp, testbed.lamp, end)
+
+
+def temperature_of(recording: Recording, testbed: Testbed) -> Samples | None:
+    """Return the same until the last row of any sensor of the motion."""
+    end = recording.span[1] if by_lamp(recording, testbed) else 0.0
+    return temperature_until(recording, testbed, end)
 
 
 def warms(recording: Recording, testbed: Testbed) -> bool:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Floats, Vector3
 
 
 def nothing() -> Vector3:
@@ -26,6 +26,29 @@ class ComStep:
 
     time: float  # s
     shift: Vector3  # m, of the total centre of mass
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TrueLamp:
+    """When a lamp is on, and how it really warms the platform; None: as the testbed states it.
+
+    What is on at time zero has been on for long.
+    """
+
+    on: Floats  # (n, 2) s, from when to when
+    warms: float | None = None  # K
+    time_constant: float | None = None  # s
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TrueCoilPair:
+    """What a pair of coils of a cage really gives."""
+
+    name: str
+    gain: float = 1.0  # -, of the field it is driven by
+    axis_N: Vector3 | None = None  # unit vector, laboratory; None: as the testbed states it
+    deviation: float | None = None  # -, of the field at the magnetometer from that at the coils
+    # on the platform, relative; None: drawn within what the testbed states
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,18 +1,21 @@
 """Devices that turn a platform without moving its centre of mass, as the testbed states them.
 
-Each is driven by one number and reports one number (``Recording.devices``):
+Each is driven by one number and reports one number (``Recording.devices``). A pair of coils of a
+Helmholtz cage stands in the laboratory around the platform; all others are on it:
 
     device               driven by                         reports
     reaction wheel       torque on the rotor, N m          speed against the platform, rad/s
     control moment gyro  gimbal rate, rad/s                gimbal angle, rad
     magnetorquer         dipole, A m^2                     dipole, A m^2
+    coil pair of a cage  field along its axis, T           the same, T, by its current
     jet pair             impulse on the platform, N m s    torque on the platform, N m, mean since
                                                            the row before
 
 What follows an input does so with a first-order lag: y' = (input - y) / lag.
 
 A recording does not know the testbed, so its name of a device holds what the numbers are:
-``wheel:x``, ``gimbal:a``, ``dipole:x`` or ``jet:x`` for a device of the name after the colon.
+``wheel:x``, ``gimbal:a``, ``dipole:x``, ``cage:x`` or ``jet:x`` for a device of the name after the
+colon.
 """
 
 from dataclasses import dataclass
@@ -20,7 +23,7 @@ from typing import Literal
 
 from equipoise.model.arrays import Vector3
 
-Reported = Literal["wheel", "gimbal", "dipole", "jet"]
+Reported = Literal["wheel", "gimbal", "dipole", "cage", "jet"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,6 +82,20 @@ class Magnetorquer:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class CoilPair:
+    """A pair of coils of a Helmholtz cage; field = input axis_N, beside the background."""
+
+    name: str
+    axis_N: Vector3  # unit vector, laboratory
+    max_field: float  # T
+    field: float = 0.0  # T, along its axis, at the start
+    lag: float = 0.0  # s
+    gain_sd: float = 0.0  # -, of its field, relative, one sd; 0: exact
+    mounting_sd: float = 0.0  # rad, of its axis about each direction across, one sd; 0: exact
+    nonuniformity: float = 0.0  # -, greatest deviation within the working volume, relative
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class JetPair:
     """On-off jets that give a pure torque about an axis, either way; on for impulse / torque."""
 
@@ -93,27 +110,40 @@ class JetPair:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MagneticField:
-    """The nominal field in the laboratory, uniform; of a Helmholtz cage, say."""
+    """The nominal field in the laboratory, uniform; beside a cage, what there is without it."""
 
     field_N: Vector3  # T, laboratory axes
     noise: float | None = None  # T, one sd per axis of a magnetometer's row; None: there is none
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Lamp:
-    """What warms the platform while it is on, towards an end, as 1 - exp(-t / time_constant)."""
+    """What warms the platform while it is on, towards an end, as 1 - exp(-t / time_constant).
+
+    With a direction it is what a sun sensor sees, while it is on.
+    """
 
     warms: float  # K, in the end
     time_constant: float  # s
+    direction_N: Vector3 | None = None  # unit vector to it, laboratory axes; None: a heater
 
 
-Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
+@dataclass(frozen=True, slots=True)
+class Thermometer:
+    """A sensor of the temperature of the platform, or of the air."""
+
+    rate: float  # Hz
+    noise: float = 0.0  # K, one sd of a row
+
+
+Device = ReactionWheel | ControlMomentGyro | Magnetorquer | CoilPair | JetPair
 
 
 REPORTED: dict[type[Device], Reported] = {
     ReactionWheel: "wheel",
     ControlMomentGyro: "gimbal",
     Magnetorquer: "dipole",
+    CoilPair: "cage",
     JetPair: "jet",
 }
 
@@ -124,7 +154,9 @@ def recorded_name(device: Device) -> str:
 
 
 def at_start(device: Device) -> float:
-    """Return what a device reports before it is driven: rad/s, rad, A m^2 or N m."""
+    """Return what a device reports before it is driven: rad/s, rad, A m^2, T or N m."""
     if isinstance(device, ReactionWheel):
         return device.speed
+    if isinstance(device, CoilPair):
+        return device.field
     return device.angle if isinstance(device, ControlMomentGyro) else 0.0

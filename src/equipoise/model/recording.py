@@ -72,8 +72,8 @@ class Recording(Plotted, FromMemory):
     masses: Samples | None = None  # (n, k) m, displacement from home as reported
     momentum: Samples | None = None  # (n, 3) N m s, stored in wheels, body axes
     torque: Samples | None = None  # (n, 3) N m, known, body axes
-    device_names: tuple[str, ...] = ()  # 'wheel:x', 'gimbal:a', 'dipole:x', 'jet:x'
-    devices: Samples | None = None  # (n, k) what each reported: rad/s, rad, A m^2, N m
+    device_names: tuple[str, ...] = ()  # 'wheel:x', 'gimbal:a', 'dipole:x', 'cage:x', 'jet:x'
+    devices: Samples | None = None  # (n, k) what each reported: rad/s, rad, A m^2, T, N m
     field: Samples | None = None  # (n, 3) T, magnetic, body axes, as the magnetometer gave it
     temperature: Samples | None = None  # (n, 1) degC, of the air at the bench or of the platform
     lamp: Samples | None = None  # (n, 1) of its full power, from each row to the next

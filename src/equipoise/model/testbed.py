@@ -7,9 +7,21 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from equipoise.model.arrays import Matrix3, Square, Vector3
-from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors, nothing
+import numpy as np
+
+from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
+from equipoise.model.defects import (
+    CameraErrors,
+    ComStep,
+    Contact,
+    Gap,
+    GyroErrors,
+    TrueCoilPair,
+    TrueLamp,
+    nothing,
+)
 from equipoise.model.devices import (
+    CoilPair,
     ControlMomentGyro,
     Device,
     JetPair,
@@ -17,6 +29,7 @@ from equipoise.model.devices import (
     MagneticField,
     Magnetorquer,
     ReactionWheel,
+    Thermometer,
     recorded_name,
 )
 from equipoise.model.hardware import Hardware
@@ -143,13 +156,15 @@ class Truth:
     gaps: tuple[Gap, ...] = ()
     camera: CameraErrors = field(default_factory=CameraErrors)
     gyro: GyroErrors = field(default_factory=GyroErrors)
-    field_N: Vector3 | None = None  # T, laboratory axes; None: as the testbed has it
+    field_N: Vector3 | None = None  # T, without the cage, laboratory axes; None: as stated
+    cage: tuple[TrueCoilPair, ...] = ()
     drives: tuple[TrueDrive, ...] = ()
     accelerometer_bias: Vector3 = field(default_factory=nothing)  # m/s^2
     magnetometer_bias: Vector3 = field(default_factory=nothing)  # T
     accelerometer_mounting: Vector3 = field(default_factory=nothing)  # rad, rotation vector
     sun_mounting: Vector3 = field(default_factory=nothing)  # rad
     magnetometer_mounting: Vector3 = field(default_factory=nothing)  # rad
+    lamp: TrueLamp | None = None  # None: there is none, or it is always off
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -180,6 +195,7 @@ class Testbed(Shown):
     magnetic_field: MagneticField | None = None
     weights: tuple[Weight, ...] = ()  # to be placed by hand
     grids: tuple[WeightGrid, ...] = ()  # where they can be placed
+    coil_pairs: tuple[CoilPair, ...] = ()  # of a cage around the bench
     lamp: Lamp | None = None  # whose switch a recording may hold
     hardware: Hardware | None = None  # what is connected; None: nothing, it can be simulated
     mass_sd: float = 0.0  # -, of all that floats, relative, one sd; 0: exact
@@ -188,7 +204,8 @@ class Testbed(Shown):
     torque_sd: float = 0.0  # -, of torque recorded as such, relative, one sd; 0: exact
     accelerometer: Accelerometer | None = None
     sun: SunSensor | None = None
-    magnetometer: Magnetometer | None = None  # of ``magnetic_field``
+    magnetometer: Magnetometer | None = None  # of ``field_N``
+    thermometer: Thermometer | None = None
     # of J_P (xx yy zz xy xz yz, kg m^2) and com (m), masses at home; not of a file: as a balancing
     # by hand has found them; None: independent, as the sds above say
     body_covariance: Square | None = None
@@ -205,8 +222,22 @@ class Testbed(Shown):
 
     @property
     def devices(self) -> tuple[Device, ...]:
-        """Return wheels, gyros, magnetorquers and jets; their names differ."""
-        return (*self.wheels, *self.cmgs, *self.magnetorquers, *self.jets)
+        """Return wheels, gyros, magnetorquers, coils of the cage and jets; their names differ."""
+        return (*self.wheels, *self.cmgs, *self.magnetorquers, *self.coil_pairs, *self.jets)
+
+    def field_N(self, cage: Floats | None = None) -> Floats | None:
+        """Return the nominal magnetic field (..., 3) T in laboratory axes; None: not known.
+
+        B_N = background + sum field_i axis_i, with fields (..., k) T of the coil pairs of the cage,
+        None: those at the start. Without [magnetic_field] the background is taken as zero.
+        """
+        if self.magnetic_field is None and not self.coil_pairs:
+            return None
+        found = np.zeros(3) if self.magnetic_field is None else self.magnetic_field.field_N
+        if not self.coil_pairs:
+            return found
+        given = np.array([pair.field for pair in self.coil_pairs]) if cage is None else cage
+        return found + given @ np.array([pair.axis_N for pair in self.coil_pairs])
 
     @property
     def device_names(self) -> tuple[str, ...]:

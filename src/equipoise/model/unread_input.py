@@ -10,6 +10,7 @@ class InputKind(StrEnum):
     WHEEL = "wheel"
     GIMBAL = "gimbal"
     DIPOLE = "dipole"
+    CAGE = "cage"
     JET = "jet"
     MASS = "mass"
     MOMENTUM = "momentum"

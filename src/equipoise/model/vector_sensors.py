@@ -28,7 +28,7 @@ class SunSensor:
 
     rate: float  # Hz
     noise: float  # -, one sd per axis and sample, of a unit vector
-    direction_N: Vector3  # unit vector to the lamp, laboratory axes
+    direction_N: Vector3 | None  # unit vector to the lamp, laboratory axes; None: the testbed's
     delay: float = 0.0  # s
     mounting_sd: float = 0.0  # rad, as of an accelerometer
 

@@ -6,7 +6,7 @@ M = exp(m) turns the sensor's axes into those of the body; m is small, and sough
 
     accelerometer   v_N = g e_z      specific force: at rest g upwards; b sought
     sun sensor      v_N = s_N        unit vector to a lamp; p = 0, b = 0
-    magnetometer    v_N = B_N        magnetic field; p = 0, b sought
+    magnetometer    v_N = B_N        magnetic field, of a cage as at the start; p = 0, b sought
 
 An accelerometer that is not at P feels how the platform turns; the others do not.
 """
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.maths.attitude import to_matrix
-from equipoise.model.arrays import Series3, Series4, Vector3
+from equipoise.model.arrays import Floats, Series3, Series4, Vector3
 from equipoise.model.testbed import Testbed
 from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 
@@ -32,7 +32,7 @@ class VectorSensor:
     noise: float  # SI, one sd per axis and sample
     bias_sd: float  # SI; 0: it has no bias
     delay: float  # s
-    vector_N: Vector3  # SI, laboratory axes
+    vector_N: Floats  # (3,) SI, laboratory axes; of the simulated bench also (n, 3), row by row
     place: Vector3  # m, from P; zeros where it makes no difference
     mounting_sd: float = 0.0  # rad, of each component of m
 
@@ -40,22 +40,31 @@ class VectorSensor:
 def vector_sensors(testbed: Testbed) -> tuple[VectorSensor, ...]:
     """Return the sensors of vectors that a testbed has, in the order of ``CHANNELS``."""
     inertial, sun, magnetic = testbed.accelerometer, testbed.sun, testbed.magnetometer
-    field, found, centre = testbed.magnetic_field, list[VectorSensor](), np.zeros(3)
+    field_N, found, centre = testbed.field_N(), list[VectorSensor](), np.zeros(3)
     if inertial is not None:
         up, place = np.array([0.0, 0.0, testbed.gravity]), inertial.place
         found.append(_vector_sensor("accelerometer", inertial, inertial.bias_sd, up, place))
-    if sun is not None:
-        found.append(_vector_sensor("sun", sun, 0.0, sun.direction_N, centre))
-    if magnetic is not None and field is not None:
-        found.append(_vector_sensor("field", magnetic, magnetic.bias_sd, field.field_N, centre))
+    direction_N = sun_direction(testbed)
+    if sun is not None and direction_N is not None:
+        found.append(_vector_sensor("sun", sun, 0.0, direction_N, centre))
+    if magnetic is not None and field_N is not None:
+        found.append(_vector_sensor("field", magnetic, magnetic.bias_sd, field_N, centre))
     return tuple(found)
+
+
+def sun_direction(testbed: Testbed) -> Vector3 | None:
+    """Return where the lamp of a sun sensor stands, a unit vector in laboratory axes."""
+    sun, lamp = testbed.sun, testbed.lamp
+    if sun is not None and sun.direction_N is not None:
+        return sun.direction_N
+    return None if lamp is None else lamp.direction_N
 
 
 def _vector_sensor(
     channel: str,
     sensor: Accelerometer | SunSensor | Magnetometer,
     bias_sd: float,
-    vector_N: Vector3,
+    vector_N: Floats,
     place: Vector3,
 ) -> VectorSensor:
     return VectorSensor(channel, sensor.rate, sensor.noise, bias_sd, sensor.delay, vector_N, place,
@@ -68,5 +77,5 @@ def vectors_in_body(sensor: VectorSensor, q: Series4, w: Series3, change: Series
     At attitudes q, rates w (rad/s) and ``change`` of the rates w' (rad/s^2).
     """
     turning = np.cross(change, sensor.place) + np.cross(w, np.cross(w, sensor.place))
-    found: Series3 = sensor.vector_N @ to_matrix(q) + turning
-    return found
+    turned: Series3 = np.einsum("...i,...ij->...j", sensor.vector_N, to_matrix(q))
+    return turned + turning

@@ -22,12 +22,12 @@ from equipoise.actuators.control_moment_gyros import gimbal_maps
 from equipoise.actuators.sliding_masses import com_shift, inertia_shift, mass_maps
 from equipoise.actuators.stored_momentum import stored_momentum
 from equipoise.dynamics.propagation import rigid_body, stacked
-from equipoise.dynamics.regressor import DRIFT
+from equipoise.dynamics.regressor import DRIFT, THERMAL
 from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.straight_lines import read_at
-from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Series1, Series3, Vector3
 from equipoise.model.bench_requests import check_duration
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
@@ -66,19 +66,20 @@ from equipoise.simulation.motion import Path
 from equipoise.simulation.noise_torque import extended, forgotten, start_noise, torque_at
 from equipoise.simulation.sensor_errors import misfelt, misread, whole, whole_angles, with_bad_rows
 from equipoise.simulation.stop import NO_STOP, stop_at
+from equipoise.simulation.surroundings.lamp import (
+    is_lit,
+    lamp_nodes,
+    lamp_of,
+    power_rows,
+    temperature_rows,
+    warmth_since_start,
+)
+from equipoise.simulation.surroundings.magnetic_field import field_at, measured_field
 from equipoise.simulation.touches import Noted, Touch, noted
 
 REPORTS = 20.0  # Hz, chosen: how often devices report where no sensor sets the pace
 A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
 AT_ONCE = 1e-3  # s, chosen: a leg that begins so soon after another is the same way
-
-
-def with_field(testbed: Testbed, field_N: Vector3 | None) -> Testbed:
-    """Return the testbed in the magnetic field (T, laboratory axes) that there really is."""
-    known = testbed.magnetic_field
-    if known is None or field_N is None:
-        return testbed
-    return replace(testbed, magnetic_field=replace(known, field_N=field_N))
 
 
 class SimulatedBench:
@@ -91,21 +92,25 @@ class SimulatedBench:
     def __init__(
         self, testbed: Testbed, seed: int, standing: Mapping[str, float] | None = None
     ) -> None:
-        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(11)]
+        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(12)]
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
         self._states_rng, self._field_rng = streams[6:8]
-        self._vector_rngs = dict[str, np.random.Generator](zip(CHANNELS, streams[8:], strict=True))
+        self._vector_rngs = dict[str, np.random.Generator](
+            zip(CHANNELS, streams[8:11], strict=True)
+        )
+        self._warm_rng = streams[11]
         self._devices = started(testbed)
         self.testbed, self.seed = testbed, seed  # as stated; of all that is drawn
         self.platform = draw_truth(testbed, rng)
-        self._vectors = vector_sensors(with_field(testbed, self.platform.field_N))
+        self._vectors = vector_sensors(testbed)
         self._sensors = (testbed.attitude, testbed.gyro, *self._vectors)
         body, truth, masses = self.platform.body, self.platform.truth, self.platform.masses
         self._body = rigid_body(body, testbed.gravity, self.platform.torque)
         self._stop = stop_at(testbed.up, testbed.tilt_limit)
         self._touched = Noted()
         self._happens = times([*truth.contacts, *truth.com_steps])
+        self._lamp = lamp_of(testbed.lamp, truth.lamp)
         self._rails = mass_maps(masses)
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
         self._travel = actuator.left_at(masses, standing or {}, self._stops_rng)
@@ -188,7 +193,9 @@ class SimulatedBench:
         body, coefficients = self.platform.body, self.platform.torque
         drift = coefficients[DRIFT : DRIFT + 3] * self._time
         slipped = com_moved(self.platform.truth.com_steps, self._time)
-        return body.com + drift + slipped + com_shift(self._rails, body.mass, self.displacements)
+        warmth = warmth_since_start(self._lamp, np.array([self._time]))[0, 0]
+        moved = drift + slipped + warmth * coefficients[THERMAL : THERMAL + 3]
+        return body.com + moved + com_shift(self._rails, body.mass, self.displacements)
 
     @property
     def sag(self) -> Matrix3:
@@ -235,6 +242,7 @@ class SimulatedBench:
         observed = [samples_between(sensor, start, now) for sensor in self._sensors]
         turns = tick(self._track.t + self.platform.truth.mass_lag)
         others = [turns, self._happens, bends(self._devices, start, now)]
+        others.append(lamp_nodes(self._lamp, start, now))
         others.append(multiples(grid_of(self.testbed), start, now))
         if self._noise.sd > 0:
             others.append(self._noise.t)
@@ -246,14 +254,15 @@ class SimulatedBench:
         truth = self.platform.truth
         h, gimbals = stored(self.testbed, self._devices, t)
         dipole, jets = effects(self.testbed, self._devices, t)
-        torque, warmth = torque_at(self._noise, t) + jets, np.zeros((len(t), 1))
+        torque, warmth = torque_at(self._noise, t) + jets, warmth_since_start(self._lamp, t)
         known = np.hstack([h, torque, warmth, self._real(t), gimbals])
         platform = (self._body, self._maps, self._state, t, known)
         stop = self._stop if t[-1] > t[0] else NO_STOP
         events = (stop, truth.contacts, truth.com_steps)
-        if self.platform.field_N is None or not dipole.any():
+        if self.platform.field is None or not dipole.any():
             return run_through(*platform, *events)
-        return run_magnetised(*platform, *events, dipole, self.platform.field_N)
+        field_N = field_at(self.platform.field, self.testbed, self._devices, t)
+        return run_magnetised(*platform, *events, dipole, field_N)
 
     def _real(self, t: Series1) -> Floats:
         """Return where the masses really are, m from home, (n, k)."""
@@ -279,27 +288,47 @@ class SimulatedBench:
         found = Recording(attitude, rate, names, masses, source=source)
         if testbed.devices:
             found = self._with_devices(found, after)
-        found = replace(found, field=self._magnetometer(t, path, after))
+        found = replace(
+            found, field=self._magnetometer(t, path, after), **self._warmth(after, since)
+        )
         return replace(found, **{s.channel: self._vector(s, t, path, after) for s in self._vectors})
+
+    def _warmth(self, after: float, since: float) -> dict[str, Samples | None]:
+        """Return temperature, stamped after a time (s), and the lamp's switch since a time."""
+        sensor, rng, now = self.testbed.thermometer, self._warm_rng, self._time
+        temperature = temperature_rows(self._lamp, sensor, after, now, rng)
+        start = max(since - self._lead, 0.0)
+        power = power_rows(self.platform.truth.lamp, start, now)
+        return {"temperature": temperature, "lamp": power}
 
     def _vector(self, sensor: VectorSensor, t: Series1, path: Path, after: float) -> Samples:
         """Return the rows of a sensor of a vector, stamped after a time (s)."""
         truth, stamps = self.platform.truth, samples(sensor.rate, after, self._time)
-        at = np.searchsorted(t, sampled_at(sensor, stamps))
+        moments = sampled_at(sensor, stamps)
+        at = np.searchsorted(t, moments)
+        if sensor.channel == "field":
+            sensor = replace(sensor, vector_N=self._field(moments[:, 0]))
         off = errors_of(sensor.channel, truth)
         rng = self._vector_rngs[sensor.channel]
         rows = vector_rows(path.y[at, :4], path.rate[at], sensor, off, rng)
         kept = outside(stamps, truth.gaps)
+        if sensor.channel == "sun":
+            kept &= is_lit(self.testbed.lamp, truth.lamp, moments[:, 0])
         return Samples(stamps[kept], rows[kept])
 
     def _magnetometer(self, t: Series1, path: Path, after: float) -> Samples | None:
         """Return the magnetometer's rows, at the attitude of the node at or before each stamp."""
-        known, field_N = self.testbed.magnetic_field, self.platform.field_N
-        if known is None or known.noise is None or field_N is None:
+        known = self.testbed.magnetic_field
+        if known is None or known.noise is None:
             return None
         stamps = samples(self._reports, after, self._time)
         q = path.y[np.searchsorted(t, stamps, side="right") - 1, :4]
-        return Samples(stamps, field_rows(q, field_N, known.noise, self._field_rng))
+        return Samples(stamps, field_rows(q, self._field(stamps), known.noise, self._field_rng))
+
+    def _field(self, t: Series1) -> Series3:
+        """Return the magnetic field (n, 3) T at the magnetometer at times (s), laboratory axes."""
+        assert self.platform.field is not None
+        return measured_field(self.platform.field, self.testbed, self._devices, t)
 
     @property
     def _reports(self) -> float:

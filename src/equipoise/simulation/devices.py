@@ -1,9 +1,12 @@
 """Wheels, gyros, coils and jets of the simulated bench, all of them followers of their inputs.
 
+A cage's coils are driven too. What they and the background give is in ``surroundings``.
+
     device               input          y                       Y
     reaction wheel       torque         slope of speed rad/s^2  speed, within its limit
     control moment gyro  gimbal rate    gimbal rate             gimbal angle
     magnetorquer         dipole         dipole
+    coil pair of a cage  field          field
     jet pair             impulse        torque, a pulse of impulse / torque seconds
 
 They report what they do, with the noise of tachometers and encoders; their inputs are not reported.
@@ -19,9 +22,16 @@ from equipoise.actuators.jets import on_platform
 from equipoise.actuators.magnetorquers import dipole_of
 from equipoise.actuators.reaction_wheels import wheel_momentum
 from equipoise.maths.attitude import to_matrix
-from equipoise.model.arrays import Floats, Series1, Series3, Series4, Vector3
+from equipoise.model.arrays import Floats, Series1, Series3, Series4
 from equipoise.model.bench_requests import checked_inputs
-from equipoise.model.devices import ControlMomentGyro, Device, JetPair, Magnetorquer, ReactionWheel
+from equipoise.model.devices import (
+    CoilPair,
+    ControlMomentGyro,
+    Device,
+    JetPair,
+    Magnetorquer,
+    ReactionWheel,
+)
 from equipoise.model.errors import DriveRefused
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.clock import tick_one
@@ -50,7 +60,8 @@ def started(testbed: Testbed) -> Followers:
     limit = np.concatenate([np.array([wheel.max_speed for wheel in wheels]), rest])
     begin = [wheel.speed for wheel in wheels] + [gyro.angle for gyro in testbed.cmgs]
     Y = np.concatenate([np.array(begin), np.zeros(len(devices) - len(begin))])
-    return at_rest(np.array(lag), limit, Y)
+    held = [each.field if isinstance(each, CoilPair) else 0.0 for each in devices]
+    return at_rest(np.array(lag), limit, Y, np.array(held))
 
 
 def grid_of(testbed: Testbed) -> float:
@@ -87,6 +98,7 @@ def goal_of(device: Device, requested: float) -> float:
         ReactionWheel: ("max_torque", "N m"),
         ControlMomentGyro: ("max_rate", "rad/s"),
         Magnetorquer: ("max_dipole", "A m^2"),
+        CoilPair: ("max_field", "T"),
     }
     limit, unit = limits[type(device)]
     if abs(requested) > getattr(device, limit) * (1 + HAIR):
@@ -95,8 +107,11 @@ def goal_of(device: Device, requested: float) -> float:
 
 
 def all_off(testbed: Testbed) -> dict[int, float]:
-    """Return goals that leave wheels at their speed and everything else without effect."""
-    return dict.fromkeys(range(len(testbed.devices)), 0.0)
+    """Return goals that leave wheels at their speed and all else on the platform without effect.
+
+    A cage stands beside it, and its field goes on.
+    """
+    return {i: 0.0 for i, each in enumerate(testbed.devices) if not isinstance(each, CoilPair)}
 
 
 def stored(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, Floats]:
@@ -118,15 +133,16 @@ def effects(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, 
     first = len(testbed.wheels) + len(testbed.cmgs)
     y, _ = followed(devices, t)
     split, none = first + len(testbed.magnetorquers), np.zeros((len(t), 3))
+    jets = split + len(testbed.coil_pairs)
     return (
         dipole_of(testbed.magnetorquers, y[:, first:split]) if testbed.magnetorquers else none,
-        on_platform(testbed.jets, y[:, split:]) if testbed.jets else none,
+        on_platform(testbed.jets, y[:, jets:]) if testbed.jets else none,
     )
 
 
-def field_rows(q: Series4, field_N: Vector3, noise: float, rng: np.random.Generator) -> Series3:
-    """Return a magnetometer's rows (n, 3) T, body axes, at attitudes, in a field (T)."""
-    turned: Series3 = field_N @ to_matrix(q)
+def field_rows(q: Series4, field_N: Series3, noise: float, rng: np.random.Generator) -> Series3:
+    """Return a magnetometer's rows (n, 3) T, body axes, at attitudes, in fields (n, 3) T."""
+    turned: Series3 = np.einsum("ni,nij->nj", field_N, to_matrix(q))
     return turned + noise * rng.standard_normal(turned.shape)
 
 
@@ -141,7 +157,7 @@ def reported_states(
     y, Y = followed(devices, t)
     w, g = len(testbed.wheels), len(testbed.cmgs)
     mean = (Y - followed(devices, t - gap)[1]) / gap
-    jets = w + g + len(testbed.magnetorquers)
+    jets = w + g + len(testbed.magnetorquers) + len(testbed.coil_pairs)
     rows = np.hstack([Y[:, : w + g], y[:, w + g : jets], mean[:, jets:]])
     sd = [wheel.speed_noise for wheel in testbed.wheels] + [c.angle_noise for c in testbed.cmgs]
     noise = rng.standard_normal((len(t), w + g)) * np.array(sd)

@@ -22,6 +22,7 @@ from equipoise.model.mass_properties import MassProperties, from_centre, smalles
 from equipoise.model.testbed import SlidingMass, Testbed, TrueDrive, Truth
 from equipoise.model.torque_terms import TERMS
 from equipoise.model.units import DEG, in_si
+from equipoise.simulation.surroundings.magnetic_field import TrueField, draw_field
 
 DRIVE = ("gain", "axis", "backlash", "accuracy")  # of a mass, what its true drive may change
 LITTLE = 0.05  # -, chosen: of the moments' geometric mean, what CAD may miss in a product
@@ -38,9 +39,9 @@ class SimulatedPlatform:
     body: MassProperties  # masses at home
     attitude: Quaternion
     rate: Vector3  # rad/s
-    torque: Floats  # (16,) coefficients in the order of TERMS, SI
+    torque: Floats  # (19,) coefficients in the order of TERMS, SI
     masses: tuple[SlidingMass, ...]  # with the drives that they really have
-    field_N: Vector3 | None  # T, magnetic, laboratory axes
+    field: TrueField | None  # magnetic; None: not known
     truth: Truth  # as given: noise, faults, events and errors of sensors, of which nothing is drawn
 
 
@@ -84,13 +85,6 @@ def given_attitude(euler: Vector3, testbed: Testbed) -> Quaternion:
     return q
 
 
-def field_of(testbed: Testbed) -> Vector3 | None:
-    """Return the magnetic field as it really is, T, laboratory axes."""
-    if testbed.truth is not None and testbed.truth.field_N is not None:
-        return testbed.truth.field_N
-    return None if testbed.magnetic_field is None else testbed.magnetic_field.field_N
-
-
 def real_masses(
     stated: tuple[SlidingMass, ...], drives: tuple[TrueDrive, ...]
 ) -> tuple[SlidingMass, ...]:
@@ -124,6 +118,6 @@ def draw_truth(testbed: Testbed, rng: np.random.Generator) -> SimulatedPlatform:
         rate=rate if truth.rate is None else truth.rate,
         torque=coefficients(dict(truth.torque)),
         masses=real_masses(testbed.masses, truth.drives),
-        field_N=field_of(testbed),
+        field=draw_field(testbed, rng),
         truth=truth,
     )

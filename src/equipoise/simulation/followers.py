@@ -36,10 +36,10 @@ class Followers:
     ends: Floats  # (n,) s, when the last pulse ends; before now: none is on
 
 
-def at_rest(lag: Floats, limit: Floats, Y: Floats) -> Followers:
-    """Return devices that stand at ``Y`` and are given nothing."""
-    none, n = np.zeros((1, len(lag))), len(lag)
-    return Followers(lag, limit, np.zeros(1), none, none, Y[None], np.full(n, -np.inf))
+def at_rest(lag: Floats, limit: Floats, Y: Floats, y: Floats | None = None) -> Followers:
+    """Return devices that stand at ``Y`` and are given what holds them at ``y``, else nothing."""
+    held, n = np.zeros((1, len(lag))) if y is None else y[None], len(lag)
+    return Followers(lag, limit, np.zeros(1), held, held, Y[None], np.full(n, -np.inf))
 
 
 def followed(devices: Followers, t: Series1) -> tuple[Floats, Floats]:

@@ -22,11 +22,11 @@ PIECE = 0.05  # s, chosen: see above
 
 
 def magnetic_torque(
-    dipole: Series3, field_N: Vector3, t: Series1, q: Quaternion, rate: Vector3
+    dipole: Series3, field_N: Series3, t: Series1, q: Quaternion, rate: Vector3
 ) -> Series3:
     """Return m x B (n, 3) N m at times (s), attitude and rate being given at the first."""
     turned = multiply(q, exponential((t - t[0])[:, None] * rate))
-    field_B: Series3 = field_N @ to_matrix(turned)
+    field_B: Series3 = np.einsum("ni,nij->nj", field_N, to_matrix(turned))
     return np.cross(dipole, field_B)
 
 
@@ -48,16 +48,16 @@ def run_magnetised(
     contacts: Sequence[Contact],
     steps: Sequence[ComStep],
     dipole: Series3,
-    field_N: Vector3,
+    field_N: Series3,
 ) -> Path:
-    """Return the motion as ``events.run_through`` does, with dipoles (n, 3) in a field (T)."""
+    """Return the motion as ``events.run_through`` does, with dipoles (n, 3) in fields (n, 3) T."""
     whole = np.flatnonzero(tick(t - PIECE * np.round(t / PIECE)) == 0)
     edges = np.unique(np.concatenate([[0], whole, [len(t) - 1]]))
 
     def follow(here: Floats, piece: slice) -> Path:
         torqued = known[piece].copy()
         rate = rate_at(body, maps, here, torqued[0])
-        torqued[:, 3:6] += magnetic_torque(dipole[piece], field_N, t[piece], here[:4], rate)
+        torqued[:, 3:6] += magnetic_torque(dipole[piece], field_N[piece], t[piece], here[:4], rate)
         return run_through(body, maps, here, t[piece], torqued, stop, contacts, steps)
 
     return in_pieces(edges.tolist(), y, follow)

@@ -10,6 +10,8 @@ from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.dynamics.lamp_warmth import warms
 from equipoise.estimation.model_selection.reference_fit import estimate
 from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.tracker import tracker
+from equipoise.estimation.tracker.predict_correct import WARM
 from equipoise.model.devices import Lamp
 from equipoise.model.estimate import COM, END
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
@@ -124,6 +126,25 @@ def test_a_lamps_warmth_is_found_by_its_switch(spin, stated):
     (reason,) = [r for r in found.outcome.reasons if r.code is Why.LAMP_RESPONSE]
     assert reason.numbers["found"] == pytest.approx(SLOW, rel=0.1)
     assert reason.numbers["stated"] == stated
+
+
+def test_the_tracker_foresees_a_lamp_whose_switch_is_recorded():
+    """By MuJoCo: within 4 sd all along, and nearer than without the switch; k within 4 sd."""
+    platform, way, record, testbed = moving(0, SPIN, warmed)
+    recorded, lit = lamp_at(SLOW, record, testbed)
+    body = replace(lit.body, inertia_P=platform.inertia_P)
+    lit = replace(lit, inertia_sd=0.0, body=body)  # no scale to be learnt beside
+    first = tracker.first_state(0.0, record.attitude.values[0], lit)
+    found, surprised = (
+        tracker.track(each, lit, tracker.Params(), first) for each in (recorded, record)
+    )
+    late = found.t > LAMP
+    true = platform.com + warmed(found.t)[:, None] * way
+    error, other = (np.abs(each.com - true)[late] for each in (found, surprised))
+    assert (error / found.com_sd[late]).max() < 4.0
+    assert np.mean(error**2) < np.mean(other**2) / 1.5
+    off = found.thermal[-1] - THERMAL * way
+    assert (np.abs(off) < 4.0 * found.sd[-1, WARM]).all()
 
 
 @pytest.mark.parametrize("stated", thorough.some([20.0, 60.0, 180.0], 2))

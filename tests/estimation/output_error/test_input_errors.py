@@ -13,13 +13,18 @@ from equipoise.estimation.output_error.fit_estimate import (
     reported_shifts,
     visibility_of,
 )
-from equipoise.estimation.output_error.input_errors import STEP, devices_varied, input_shifts
+from equipoise.estimation.output_error.input_errors import (
+    STEP,
+    cage_varied,
+    devices_varied,
+    input_shifts,
+)
 from equipoise.estimation.output_error.trajectory import METHOD, Params, fit
 from equipoise.estimation.parameters.fit_parameters import JP, R
-from equipoise.model.devices import ReactionWheel
+from equipoise.model.devices import CoilPair, Magnetorquer, ReactionWheel
 from equipoise.model.estimate import BODY
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
-from equipoise.model.recording import Samples
+from equipoise.model.recording import Recording, Samples
 from tests.oracle import cases
 from tests.support import thorough
 from tests.support.builders import COM, INERTIA, move_at, noisy, platform, recording
@@ -140,6 +145,35 @@ def test_a_wheel_turns_its_momentum_with_its_mounting_and_scales_it_with_its_gai
     np.testing.assert_allclose(found["gain of z"], [[0.0, 0.0, 0.1 * SD]], atol=1e-12)
     wanted = [[0.0, -0.1 * 0.01, 0.0], [0.1 * 0.01, 0.0, 0.0], [0.0, 0.0, 0.0]]
     np.testing.assert_allclose(found["mounting of z"], wanted, atol=1e-12)
+
+
+def test_a_cage_moves_the_torque_of_coils_by_what_it_is_off_by():
+    """0.4 A m2 along z in 50 uT along x, at rest and level: 20 uN m about y.
+
+    2 % of gain and 3 % of deviation, uniform: hypot(0.02, 0.03 / sqrt 3) of it; 0.01 rad of the
+    axis about z gives -0.4 x 0.5 uT about x, about y a field along -z, which turns no coil z.
+    Where a magnetometer measured the field, nothing of this counts.
+    """
+    pair = CoilPair("c", np.array([1.0, 0.0, 0.0]), 1e-4, 50e-6, 0.0, 0.02, 0.01, 0.03)
+    coil = Magnetorquer("m", np.array([0.0, 0.0, 1.0]), 1.0)
+    bed = replace(platform(), magnetorquers=(coil,), coil_pairs=(pair,))
+    t = np.array([0.0, 10.0])
+    level = Samples(t, np.tile([1.0, 0.0, 0.0, 0.0], (2, 1)))
+    devices = Samples(t, np.tile([0.4, 50e-6], (2, 1)))
+    record = Recording(level, device_names=bed.device_names, devices=devices)
+    record = with_known_inputs(record, bed)
+    found = {}
+    for varied in cage_varied(record, bed):
+        off = (varied.recording.torque.values - record.torque.values)[-1] / STEP
+        found.setdefault(varied.name, []).append((varied.sd, off))
+    sd = np.hypot(0.02, 0.03 / 3**0.5)
+    assert found["gain of c"][0][0] == pytest.approx(sd)
+    np.testing.assert_allclose(found["gain of c"][0][1], [0.0, 2e-5 * sd, 0.0], atol=1e-15)
+    _, about_y, about_z = (off for _, off in found["mounting of c"])
+    np.testing.assert_allclose(about_y, 0.0, atol=1e-15)
+    np.testing.assert_allclose(about_z, [-2e-5 * 0.01, 0.0, 0.0], atol=1e-15)
+    measured = replace(record, field=Samples(t, np.tile([50e-6, 0.0, 0.0], (2, 1))))
+    assert not list(cage_varied(measured, bed))
 
 
 def test_an_input_that_gives_most_of_a_variance_is_named():

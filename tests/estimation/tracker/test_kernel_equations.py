@@ -14,7 +14,7 @@ from equipoise.estimation.tracker.kernel_records import new_tools
 from equipoise.estimation.tracker.measurement_update import take_anew
 from equipoise.estimation.tracker.measurements import Rows
 from equipoise.estimation.tracker.noise_level import learn_noise
-from equipoise.estimation.tracker.stored_covariance import DRIFT, SIZE
+from equipoise.estimation.tracker.stored_covariance import DRIFT, SIZE, WARM_ROW
 from equipoise.maths.attitude import exponential
 
 sensors = pytest.mark.parametrize(("first", "second"), [(0, -1), (3, 15)], ids=["camera", "gyro"])
@@ -36,7 +36,7 @@ def pick(first: int, second: int) -> np.ndarray:
 
 
 def transition(seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """The (6, 15) block, and the (21, 21) matrix that it stands for."""
+    """The (6, 15) block, and the (24, 24) matrix that it stands for."""
     phi, full = np.random.default_rng(seed).normal(size=(6, 15)) / 4, np.eye(SIZE)
     full[:6, :15] = phi
     return phi, full
@@ -45,7 +45,7 @@ def transition(seed: int) -> tuple[np.ndarray, np.ndarray]:
 def drift_over(dt: float) -> np.ndarray:
     """F of r' = v over a time (s)."""
     F = np.eye(SIZE)
-    F[range(6, 9), range(DRIFT, SIZE)] = dt
+    F[range(6, 9), range(DRIFT, DRIFT + 3)] = dt
     return F
 
 
@@ -82,7 +82,7 @@ def test_covariance_is_predicted_as_phi_p_phi_transposed_and_noise():
     phi, full = transition(1)
     P, noise = covariance(2), np.zeros(SIZE)
     noise[3:6] = 2.0
-    expected = full @ P @ full.T + np.diag([0.0] * 3 + [0.025] * 3 + [0.0] * 15)
+    expected = full @ P @ full.T + np.diag([0.0] * 3 + [0.025] * 3 + [0.0] * (SIZE - 6))
     work, inertia = holding(P), (4.0, 4.0, 4.0, 0.0, 0.0, 0.0)
     steps.predict_covariance(inertia, rows_of_16(phi), noise, 0.1, work)
     np.testing.assert_allclose(held(work), expected, rtol=0, atol=1e-12)
@@ -123,28 +123,34 @@ def test_where_the_bias_is_alone_its_block_is_passed_over():
 
 
 def test_a_covariance_whose_bias_has_to_do_with_the_rest_says_so():
-    P = np.diag(np.r_[np.arange(1.0, 19.0), 0.0, 0.0, 0.0])
+    P = np.diag(np.r_[np.arange(1.0, 19.0), 0.0, 0.0, 0.0, 22.0, 23.0, 24.0])
     assert not stored.coupled(P)
     P[4, 16] = P[16, 4] = 1e-30
     assert stored.coupled(P)
 
 
-def test_the_centre_of_mass_drifts_as_the_rate_says():
-    """r of (7, 8, 9) at v of (19, 20, 21) for 0.5 s: (16.5, 18, 19.5); P as F P F^T."""
-    P, end = covariance(12), np.arange(22.0)
-    work, F = holding(P), drift_over(0.5)
-    steps.drift_on(0.5, end, work.P)
+@pytest.mark.parametrize("first", [DRIFT, WARM_ROW], ids=["drift", "warmth"])
+def test_the_centre_of_mass_is_carried_on_as_its_rate_says(first):
+    """r of (7, 8, 9), at (19, 20, 21) or (22, 23, 24) of it for 0.5; P as F P F^T."""
+    P, end, F = covariance(12), np.arange(1.0 + SIZE), np.eye(SIZE)
+    F[range(6, 9), range(first, first + 3)] = 0.5
+    work, expected = holding(P), end.copy()
+    expected[7:10] += 0.5 * np.arange(first + 1.0, first + 4.0)
+    steps.carry(first, 0.5, end, work.P)
     np.testing.assert_allclose(held(work), F @ P @ F.T, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(end, [*range(7), 16.5, 18.0, 19.5, *range(10, 22)])
+    np.testing.assert_allclose(end, expected)
 
 
 def test_a_centre_of_mass_that_cannot_drift_stays():
-    P, end = covariance(13), np.arange(22.0)
-    P[DRIFT:] = P[:, DRIFT:] = 0.0
+    P, end = covariance(13), np.arange(1.0 + SIZE)
     work = holding(P)
-    steps.drift_on(0.5, end, work.P)
+    assert stored.drifts(work.P)
+    P[DRIFT:] = P[:, DRIFT:] = 0.0
+    assert not stored.drifts(holding(P).P)
+    work = holding(P)
+    steps.carry(DRIFT, 0.0, end, work.P)
     np.testing.assert_array_equal(held(work), P)
-    np.testing.assert_array_equal(end, np.arange(22.0))
+    np.testing.assert_array_equal(end, np.arange(1.0 + SIZE))
 
 
 def test_where_there_may_be_a_drift_the_second_block_is_in_use():
@@ -184,7 +190,7 @@ def test_signature_is_what_two_filters_differ_by(first, second):
         z = rng.normal(size=3)
         steps.expect(first, second, 0.7, tools.work)
         steps.weigh(tuple(z), tools.work)
-        onsets.follow(watch, rows_of_16(phi), LAPSE, tools.room)
+        onsets.follow(watch, rows_of_16(phi), 0.0, LAPSE, tools.room)
         onsets.response(watch, first, second, tools.room)
         onsets.gather(watch, tuple(z), tools.work, tools.room)
         onsets.respond(watch, tools.work, tools.room)
@@ -286,15 +292,15 @@ def test_an_attitude_taken_anew_brings_its_rate():
     """0.02 rad about y in 0.2 s: 0.1 rad/s; sd 2 x 1e-3 / 0.2 + 0.1 x 0.1 = 0.02."""
     q = exponential(np.array([[0.0, 0.0, 0.0], [0.0, 0.02, 0.0]]))
     rows = Rows(
-        np.array([0.0, 0.2, 0.4]), np.zeros((3, 6)), np.zeros(0, np.int64), q, np.array([1, 2]),
+        np.array([0.0, 0.2, 0.4]), np.zeros((3, 7)), np.zeros(0, np.int64), q, np.array([1, 2]),
         np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3, 3)),
     )  # fmt: skip
-    P, body, end = covariance(11), np.s_[6:, 6:], np.arange(22.0)
+    P, body, end = covariance(11), np.s_[6:, 6:], np.arange(1.0 + SIZE)
     work = holding(P)
     take_anew(rows, 1, 1e-3, end, work.P)
     np.testing.assert_allclose(end[:4], q[1])
     np.testing.assert_allclose(end[4:7], [0.0, 0.1, 0.0], atol=1e-12)
-    np.testing.assert_array_equal(end[7:], np.arange(7.0, 22.0))
+    np.testing.assert_array_equal(end[7:], np.arange(7.0, 1.0 + SIZE))
     left = np.zeros((SIZE, SIZE))
     left[body] = P[body]
     left[np.diag_indices(6)] = [1e-6] * 3 + [4e-4] * 3

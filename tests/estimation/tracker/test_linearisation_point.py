@@ -34,9 +34,9 @@ def slope(x: np.ndarray) -> np.ndarray:
 
 
 def some_covariance() -> np.ndarray:
-    """Of all 21 errors, correlated."""
+    """Of all errors, correlated."""
     root = np.random.default_rng(1).normal(size=(SIZE, SIZE))
-    sd = np.concatenate([np.full(6, 1e-3), SPREAD, np.full(6, 1e-4)])
+    sd = np.concatenate([np.full(6, 1e-3), SPREAD, np.full(SIZE - 15, 1e-4)])
     return root @ root.T * np.outer(sd, sd)
 
 

@@ -66,18 +66,19 @@ def test_declared_units_become_si(tmp_path) -> None:
 
 
 def test_devices_and_a_magnetometer_are_declared_with_their_units(tmp_path) -> None:
-    """rpm, deg, mA m2 and mN m, all of one column; nT, in axes of its own."""
+    """rpm, deg, mA m2, uT and mN m, all of one column; nT, in axes of its own."""
     device = '[[device]]\nname = "{}"\nreports = "{}"\ncolumn = "stage"\nunit = "{}"\n'
     kinds = [
         ("x", "wheel", "rpm"),
         ("a", "gimbal", "deg"),
         ("m", "dipole", "mA m2"),
+        ("c", "cage", "uT"),
         ("j", "jet", "mN m"),
     ]
     field = '[field]\ncolumns = ["gx", "gy", "gz"]\nunit = "nT"\naxes = ["y", "-x", "z"]\n'
     recording = read(tmp_path, MAP + "".join(device.format(*kind) for kind in kinds) + field)
-    assert recording.device_names == ("wheel:x", "gimbal:a", "dipole:m", "jet:j")
-    last = [1500 * np.pi / 30, 1500 * np.pi / 180, 1.5, 1.5]
+    assert recording.device_names == ("wheel:x", "gimbal:a", "dipole:m", "cage:c", "jet:j")
+    last = [1500 * np.pi / 30, 1500 * np.pi / 180, 1.5, 1.5e-3, 1.5]
     np.testing.assert_allclose(recording.devices.values[-1], last, rtol=1e-12)
     turned = np.degrees(W)[:, [1, 0, 2]] * [1, -1, 1]
     np.testing.assert_allclose(recording.field.values, turned * 1e-9, rtol=1e-12)

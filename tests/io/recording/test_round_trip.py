@@ -19,7 +19,7 @@ NAMES = st.lists(
 )
 
 DEVICES = st.lists(
-    st.from_regex(r"(wheel|gimbal|dipole|jet):[a-z][a-z0-9_]{0,5}", fullmatch=True),
+    st.from_regex(r"(wheel|gimbal|dipole|cage|jet):[a-z][a-z0-9_]{0,5}", fullmatch=True),
     min_size=1,
     max_size=4,
     unique=True,
@@ -80,7 +80,7 @@ def assert_same(again: Recording, first: Recording) -> None:
         np.testing.assert_array_equal(ours.t, theirs.t)
         np.testing.assert_array_max_ulp(ours.values, theirs.values, maxulp=ULP.get(name, 0))
     for k, name in enumerate(first.device_names):
-        if not name.startswith("gimbal"):
+        if not name.startswith(("gimbal", "cage")):
             np.testing.assert_array_equal(again.devices.values[:, k], first.devices.values[:, k])
 
 
@@ -130,22 +130,23 @@ def test_the_header_is_the_documented_one(tmp_path) -> None:
 
 
 def test_each_kind_of_device_has_its_unit_in_the_header(tmp_path) -> None:
-    """A speed in rad/s, an angle in deg, a dipole, a torque; the field in uT; in their order."""
+    """A speed in rad/s, an angle in deg, a dipole, a torque; fields in uT; in their order."""
     path, t = tmp_path / "r.csv", np.arange(3.0)
-    names = ("jet:y", "wheel:r_s", "gimbal:a", "dipole:x")
-    rows = Samples(t[:1], np.array([[0.02, -10.5, np.pi / 4, 0.4]]))
+    names = ("jet:y", "wheel:r_s", "gimbal:a", "dipole:x", "cage:c_T")
+    rows = Samples(t[:1], np.array([[0.02, -10.5, np.pi / 4, 0.4, -3e-5]]))
     field = Samples(t[:1], np.array([[0, -2e-5, 5e-5]]))
     write_recording(
         Recording(Samples(t, LEVEL), device_names=names, devices=rows, field=field), path
     )
     head, first, second, _ = path.read_text().splitlines()
     columns = (
-        "jet_y_N_m,wheel_r_s_rad_s,gimbal_a_deg,dipole_x_A_m2,field_x_uT,field_y_uT,field_z_uT"
+        "jet_y_N_m,wheel_r_s_rad_s,gimbal_a_deg,dipole_x_A_m2,cage_c_T_uT,"
+        "field_x_uT,field_y_uT,field_z_uT"
     )
     assert head == f"time_s,q_w,q_x,q_y,q_z,{columns}"
     cells = list(map(float, first.split(",")[5:]))
-    np.testing.assert_allclose(cells, [0.02, -10.5, 45, 0.4, 0, -20, 50], rtol=1e-15)
-    assert second.endswith(",,,,,,")
+    np.testing.assert_allclose(cells, [0.02, -10.5, 45, 0.4, -30, 0, -20, 50], rtol=1e-15)
+    assert second.endswith(",,,,,,,")
     again = read_recording(path)
     assert again.device_names == names
     assert_same(again, Recording(Samples(t, LEVEL), device_names=names, devices=rows, field=field))

@@ -45,6 +45,15 @@ name = "mx"
 axis = [-2, 0, 0]
 max_dipole_A_m2 = 0.4
 lag_ms = 1
+[[coil_pair]]
+name = "cx"
+axis = [0, 0.5, 0]
+max_field_uT = 200
+field_uT = 60
+lag_ms = 200
+gain_sd_percent = 2
+mounting_sd_deg = 0.5
+nonuniformity_percent = 3
 [[jet_pair]]
 name = "jx"
 axis = [0, 0, 1]
@@ -56,6 +65,11 @@ field_uT = [100, 0, -50]
 noise_uT = 0.5
 [truth]
 field_uT = [99, 1, -51]
+[[truth.coil_pair]]
+name = "cx"
+gain = 1.02
+axis = [0, 2, 0]
+deviation_percent = -2
 """
 BARE = """
 [[reaction_wheel]]
@@ -117,6 +131,35 @@ def test_a_gyro_is_read_in_si_and_its_spin_axis_made_square() -> None:
     assert gyro.asymmetry == -1e-4
 
 
+def test_a_cage_is_read_in_si() -> None:
+    """uT, percent and deg; nominal 60 uT along y beside 100 and -50; what is true of it."""
+    testbed = devices(DEVICES)
+    (pair,), truth = testbed.coil_pairs, testbed.truth
+    np.testing.assert_array_equal(pair.axis_N, [0, 1, 0])
+    assert pair.max_field == pytest.approx(2e-4, rel=1e-15)
+    assert pair.field == pytest.approx(6e-5, rel=1e-15)
+    assert pair.lag == pytest.approx(0.2)
+    assert (pair.gain_sd, pair.nonuniformity) == (0.02, 0.03)
+    assert pair.mounting_sd == pytest.approx(math.radians(0.5))
+    np.testing.assert_allclose(testbed.field_N(), [1e-4, 6e-5, -5e-5], rtol=1e-14)
+    given = testbed.field_N(np.array([[0.0], [1e-5]]))
+    np.testing.assert_allclose(given, [[1e-4, 0, -5e-5], [1e-4, 1e-5, -5e-5]], rtol=1e-14)
+    assert truth is not None
+    (true,) = truth.cage
+    assert (true.name, true.gain, true.deviation) == ("cx", 1.02, -0.02)
+    np.testing.assert_array_equal(true.axis_N, [0, 1, 0])
+
+
+def test_a_cage_alone_is_a_known_field() -> None:
+    """Without [magnetic_field] the background is taken as zero; a true one may be stated."""
+    text = DEVICES.replace("[magnetic_field]\nfield_uT = [100, 0, -50]\nnoise_uT = 0.5\n", "")
+    testbed = devices(text)
+    assert testbed.magnetic_field is None
+    np.testing.assert_allclose(testbed.field_N(), [0, 6e-5, 0], rtol=1e-15)
+    assert testbed.truth is not None
+    np.testing.assert_allclose(testbed.truth.field_N, [9.9e-5, 1e-6, -5.1e-5], rtol=1e-15)
+
+
 def test_magnetorquers_jets_and_fields_are_read_in_si() -> None:
     """A m2, N m, ms and uT; the true field beside the known one."""
     testbed = devices(DEVICES)
@@ -147,20 +190,33 @@ def test_what_is_left_out_is_ideal_and_at_rest() -> None:
 
 
 def test_a_recording_names_devices_by_what_they_report() -> None:
-    """In the order of wheels, gyros, magnetorquers, jets."""
-    assert devices(DEVICES).device_names == ("wheel:x", "gimbal:a", "dipole:mx", "jet:jx")
+    """In the order of wheels, gyros, magnetorquers, a cage, jets."""
+    assert devices(DEVICES).device_names == (
+        "wheel:x",
+        "gimbal:a",
+        "dipole:mx",
+        "cage:cx",
+        "jet:jx",
+    )
 
 
 def test_what_devices_report_before_they_are_driven() -> None:
-    """Speed and angle at the start; no dipole and no torque."""
+    """Speed, angle and the cage's field at the start; no dipole and no torque."""
     found = [at_start(device) for device in devices(DEVICES).devices]
-    assert found == pytest.approx([-10 * math.pi, -math.pi / 4, 0, 0], rel=1e-15)
+    assert found == pytest.approx([-10 * math.pi, -math.pi / 4, 0, 6e-5, 0], rel=1e-15)
 
 
 def test_the_schema_knows_devices() -> None:
     """Editors complete their keys."""
     tables = json_schema()["$defs"]
-    for name in ("ReactionWheel", "ControlMomentGyro", "Magnetorquer", "JetPair", "MagneticField"):
+    for name in (
+        "ReactionWheel",
+        "Magnetorquer",
+        "CoilPair",
+        "JetPair",
+        "MagneticField",
+        "TrueLamp",
+    ):
         assert tables[name]["additionalProperties"] is False
     assert "max_momentum_N_m_s" in tables["ReactionWheel"]["required"]
 
@@ -216,8 +272,7 @@ CASES = {
         ["'x'"],
     ),
     "coils without a field": (
-        "[magnetic_field]\nfield_uT = [100, 0, -50]\nnoise_uT = 0.5\n[truth]\n"
-        "field_uT = [99, 1, -51]\n",
+        DEVICES[DEVICES.index("[[coil_pair]]") :],
         "",
         "magnetorquer",
         ["no magnetic field", "[magnetic_field]", "field_uT"],
@@ -278,6 +333,18 @@ CASES = {
         "magnetic_field.field_G",
         ["'field_uT'"],
     ),
+    "a field that the coils do not give": (
+        "field_uT = 60",
+        "field_uT = -201",
+        "coil_pair[1].field_uT",
+        ["max_field_uT = 200"],
+    ),
+    "a pair of no cage": (
+        'name = "cx"\ngain',
+        'name = "c"\ngain',
+        "truth.coil_pair[1].name",
+        ["did you mean 'cx'"],
+    ),
     "a true field alone": (
         DEVICES[DEVICES.index("[[magnetorquer]]") :],
         "[truth]\nfield_uT = [1, 2, 3]\n",
@@ -312,7 +379,7 @@ def drawn_texts(draw: st.DrawFn) -> str:
     for i, line in enumerate(lines):
         key, _, value = line.partition(" = ")
         if value and value[0] not in '"[':
-            span = (400.0, 9e3) if key == "max_speed_rpm" else (1e-4, 300.0)
+            span = (400.0, 9e3) if key in ("max_speed_rpm", "max_field_uT") else (1e-4, 300.0)
             lines[i] = f"{key} = {draw(number(*span))}"
     drawn = "\n".join(lines)
     return drawn.replace("[100, 0, -50]", f"[{draw(number(1, 99))}, {draw(number(-99, 99))}, 3]")
@@ -334,7 +401,7 @@ def test_devices_written_and_read_again_are_the_same(text: str) -> None:
     """Every key of every kind, the field and the true field."""
     first = devices(text)
     again = parse_testbed(text_of_testbed(first), "t")
-    assert len(again.devices) == len(first.devices) == 4
+    assert len(again.devices) == len(first.devices) == 5
     for ours, theirs in zip(again.devices, first.devices, strict=True):
         assert type(ours) is type(theirs)
         assert_same(ours, theirs)
@@ -342,6 +409,7 @@ def test_devices_written_and_read_again_are_the_same(text: str) -> None:
     assert again.truth is not None
     assert first.truth is not None
     np.testing.assert_allclose(again.truth.field_N, first.truth.field_N, rtol=SAME)
+    assert_same(again.truth.cage[0], first.truth.cage[0])
 
 
 def test_a_missing_magnetometer_stays_missing() -> None:

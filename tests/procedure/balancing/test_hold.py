@@ -5,15 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.defects import TrueLamp
 from equipoise.model.units import UM
-from equipoise.procedure.balancing.hold import (
-    HoldOptions,
-    balance_and_hold,
-    without_drift,
-)
+from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold, first_posterior
+from equipoise.procedure.balancing.hold_posterior import standing
+from equipoise.procedure.steps.joint_fit import learn
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
+from verification import lamp
 
 MINUTES = thorough.count(2, 1)
 HOLDING = HoldOptions(duration=60.0 * MINUTES)
@@ -43,11 +44,6 @@ def test_the_hold_lasts_for_the_requested_time(held):
     assert steps[-1].time - balanced.time == pytest.approx(60.0 * MINUTES, abs=1e-6)
 
 
-def test_drift_is_left_to_the_tracker():
-    kept = without_drift(np.arange(1.0, 17.0))
-    np.testing.assert_array_equal(kept, [*np.arange(1.0, 14.0), 0.0, 0.0, 0.0])
-
-
 def test_a_hold_whose_rails_end_fails_and_says_so():
     """Rails of 3 mm end within minutes of 10 um/min; the verdict on balancing is another one."""
     bed = read_preset("sputnix")
@@ -60,3 +56,19 @@ def test_a_hold_whose_rails_end_fails_and_says_so():
     assert (last.kind, last.verdict.outcome) == ("stop", "failed")
     assert last.verdict.code == "rails_ended"
     assert "the end of their rails" in last.sentence
+
+
+def test_the_tracker_goes_on_under_a_lamp_that_is_on():
+    """By the coefficients of the fit, and its switch before the hold: com within 4 sd later."""
+    bed = lamp.roughly_known(lamp.logged(0))
+    lit = TrueLamp(np.array([[20.0, 400.0]]))
+    bed = replace(bed, truth=replace(bed.truth, lamp=lit))
+    bench = SimulatedBench(bed, 1)
+    knowledge = learn(None, bench.read(100.0), bed)
+    state = first_posterior(knowledge, bed)
+    np.testing.assert_array_equal(state.thermal, knowledge.estimate.values(lamp.TERMS))
+    params = tracker.Params(torque=knowledge.fitted.point.torque)
+    state = tracker.track(bench.read(100.0), bed, params, state).end
+    held = standing(state, bed, knowledge.displacement)
+    error = (held.com - bench.com) / np.sqrt(np.diag(held.covariance))
+    assert np.abs(error).max() < 4.0

@@ -23,7 +23,7 @@ def drifting_state(rate_um_s=0.05, sd_um_s=0.02, shared=0.5):
     """A state that drifts along x, whose rate and place correlate."""
     state = tracker.first_state(0.0, np.array([1.0, 0, 0, 0]), read_preset("sputnix"))
     covariance = state.covariance.copy()
-    covariance[18:, 18:] = (sd_um_s * UM) ** 2 * np.eye(3)
+    covariance[18:21, 18:21] = (sd_um_s * UM) ** 2 * np.eye(3)
     covariance[6, 18] = covariance[18, 6] = shared * 0.2 * sd_um_s * UM**2
     return replace(state, drift=np.array([rate_um_s, 0, 0]) * UM, covariance=covariance)
 

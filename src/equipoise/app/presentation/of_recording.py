@@ -37,7 +37,7 @@ PARTS = {
     "accelerometer": AXES,
     "sun": AXES,
 }
-OF_DEVICES = {"wheel": "rad/s", "gimbal": "rad", "dipole": "A m2", "jet": "N m"}
+OF_DEVICES = {"wheel": "rad/s", "gimbal": "rad", "dipole": "A m2", "cage": "T", "jet": "N m"}
 
 
 def channels(recording: Recording) -> dict[str, Samples]:

@@ -18,6 +18,7 @@ DEVICES: Mapping[InputKind, tuple[str, str]] = {
     InputKind.WHEEL: ('[[device]], reports = "wheel"', "[[reaction_wheel]]"),
     InputKind.GIMBAL: ('[[device]], reports = "gimbal"', "[[control_moment_gyro]]"),
     InputKind.DIPOLE: ('[[device]], reports = "dipole"', "[[magnetorquer]]"),
+    InputKind.CAGE: ('[[device]], reports = "cage"', "[[coil_pair]]"),
     InputKind.JET: ('[[device]], reports = "jet"', "[[jet_pair]]"),
     InputKind.MASS: ("[[mass]]", "[[sliding_mass]]"),
 }

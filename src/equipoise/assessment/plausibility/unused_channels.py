@@ -14,7 +14,7 @@ from equipoise.sensors.vector_sensors import CHANNELS, vector_sensors
 KEYS = {
     "accelerometer": "[sensor.accelerometer]",
     "sun": "[sensor.sun]",
-    "field": "[sensor.magnetometer] and [magnetic_field]",
+    "field": "[sensor.magnetometer] and [magnetic_field] or [[coil_pair]]",
 }
 
 

@@ -114,11 +114,11 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 
 def coils_of(testbed: Testbed) -> float:
     """Return the torque (N m) that coils along all axes give across the field; else zero."""
-    coils, field = testbed.magnetorquers, testbed.magnetic_field
+    coils, field_N = testbed.magnetorquers, testbed.field_N()
     axes = np.array([coil.axis for coil in coils]).reshape(-1, 3)
-    if field is None or np.linalg.matrix_rank(axes) < 3:
+    if field_N is None or np.linalg.matrix_rank(axes) < 3:
         return 0.0
-    return min(coil.max_dipole for coil in coils) * float(np.linalg.norm(field.field_N))
+    return min(coil.max_dipole for coil in coils) * float(np.linalg.norm(field_N))
 
 
 def watched(state: State, sample: Sample, params: Params) -> State:

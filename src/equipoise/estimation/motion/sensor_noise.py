@@ -44,6 +44,6 @@ def with_vector_noise(testbed: Testbed, noise: Mapping[str, float]) -> Testbed:
     return replace(
         testbed,
         accelerometer=inertial and replace(inertial, noise=noise["accelerometer"]),
-        sun=sun and replace(sun, noise=noise["sun"]),
+        sun=sun and replace(sun, noise=noise.get("sun", sun.noise)),
         magnetometer=magnetic and replace(magnetic, noise=noise.get("field", magnetic.noise)),
     )

@@ -196,27 +196,53 @@ def turned_by(part: Samples | None, whole: Samples | None, matrix: Matrix3) -> S
     return replace(whole, values=whole.values + part.values @ matrix.T)
 
 
+def changes_of(gain_sd: float, mounting_sd: float) -> list[tuple[str, float, str, Matrix3]]:
+    """Return gain and mounting, each with its sd, an axis, and the matrix M of its change M h."""
+    turned = zip("xyz", (np.cross(axis, AXES).T for axis in AXES), strict=True)
+    gain = ("gain", gain_sd, "", AXES)
+    return [gain, *(("mounting", mounting_sd, axis, turn) for axis, turn in turned)]
+
+
 def devices_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     """Yield gain and mounting of each device, by its part of the known momentum and torque."""
     if recording.devices is None:
         return
-    for device in testbed.devices:
+    for device in (*testbed.wheels, *testbed.cmgs, *testbed.magnetorquers, *testbed.jets):
         single = alone(testbed, device)
         h, tau = stored_momentum(recording, single), known_torque(recording, single)
-        turned = zip("xyz", (np.cross(axis, AXES).T for axis in AXES), strict=True)
-        changes = [("gain", device.gain_sd, "", AXES)]
-        changes += [("mounting", device.mounting_sd, axis, turn) for axis, turn in turned]
-        for what, sd, axis, matrix in changes:
+        for what, sd, axis, matrix in changes_of(device.gain_sd, device.mounting_sd):
             momentum = turned_by(h, recording.momentum, STEP * sd * matrix)
             torque = turned_by(tau, recording.torque, STEP * sd * matrix)
             driven = replace(recording, momentum=momentum, torque=torque)
             yield Varied(f"{what} of {device.name}", sd, driven, testbed, axis)
 
 
+def cage_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
+    """Yield gain and mounting of each coil pair of a cage, by what coils on the platform feel.
+
+    Its field deviates by up to the stated share within the working volume: of one sd, a third of
+    that squared (uniform). Where the field was measured, nothing of this counts.
+    """
+    measured = recording.field is not None and len(recording.field)
+    if recording.devices is None or recording.torque is None or measured:
+        return
+    pairs, stated = testbed.coil_pairs, known_torque(recording, testbed)
+    for i, pair in enumerate(pairs):
+        gain_sd = float(np.hypot(pair.gain_sd, pair.nonuniformity / 3**0.5))
+        for what, sd, axis, matrix in changes_of(gain_sd, pair.mounting_sd):
+            other = replace(pair, axis_N=pair.axis_N + STEP * sd * matrix @ pair.axis_N)
+            bent = replace(testbed, coil_pairs=(*pairs[:i], other, *pairs[i + 1 :]))
+            torque = known_torque(recording, bent)
+            if torque is not None and stated is not None:
+                more = recording.torque.values + torque.values - stated.values
+                driven = replace(recording, torque=replace(recording.torque, values=more))
+                yield Varied(f"{what} of {pair.name}", sd, driven, testbed, axis)
+
+
 def variations(problem: Problem) -> Iterator[Varied]:
     """Yield every input that has an sd and is not sought, off by ``STEP``."""
     recording, testbed, sought = problem.recording, problem.testbed, sought_weights(problem)
-    for inputs in (platform_varied, places_varied, clocks_varied, devices_varied):
+    for inputs in (platform_varied, places_varied, clocks_varied, devices_varied, cage_varied):
         for varied in inputs(recording, testbed):
             if varied.sd > 0 and varied.name not in sought:
                 yield varied

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.tracker.predict_correct import Work, ahead
-from equipoise.estimation.tracker.stored_covariance import DRIFT, ROW, SIZE
+from equipoise.estimation.tracker.stored_covariance import COM_ROW, DRIFT, ROW, SIZE, WARM_ROW
 from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Ints, Triple
 
@@ -32,7 +32,7 @@ COUNT, GATED, WAITED, SUSPECT = 0, 1, 2, 3  # in Watch.counts
 class Watch(NamedTuple):
     """What the test remembers; what has two dimensions lies row by row in one."""
 
-    X: Floats  # (21, 72)
+    X: Floats  # (24, 72)
     C: Floats  # (6, 24) xx yy zz xy xz yz
     d: Floats  # (3, 24)
     age: Ints  # (12,) rows
@@ -51,8 +51,8 @@ class Room(NamedTuple):
     v: Floats  # (3, 24)
     gain: Floats  # (24,) l
     p: Floats  # (24,) probability
-    one: Floats  # (21,)
-    other: Floats  # (21,)
+    one: Floats  # (24,)
+    other: Floats  # (24,)
 
 
 def new_watch() -> Watch:
@@ -72,9 +72,11 @@ def forget(watch: Watch) -> None:
 
 
 @part
-def follow(watch: Watch, phi: Floats, dt: float, room: Room) -> None:
-    """Write X <- Phi X; behind a step of dt (s) r has drifted, too."""
+def follow(watch: Watch, phi: Floats, kelvins: float, dt: float, room: Room) -> None:
+    """Write X <- D Phi W X over a step: warmer by some kelvins before it, dt (s) of drift after."""
     X, after = watch.X, room.after
+    for c in range(3 * COLUMNS if kelvins != 0.0 else 0):
+        X[COM_ROW * COLUMNS + c] += kelvins * X[WARM_ROW * COLUMNS + c]
     for r in range(6):
         for c in range(COLUMNS):
             after[r * COLUMNS + c] = ahead(phi, r, X, COLUMNS, c)

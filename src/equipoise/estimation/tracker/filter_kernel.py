@@ -8,7 +8,7 @@ import numpy as np
 
 from equipoise.dynamics.forcing import groups_of
 from equipoise.dynamics.propagation import step
-from equipoise.dynamics.rigid_body import Body, Now, body_at, rate_of
+from equipoise.dynamics.rigid_body import KNOWN_WARMTH, Body, Now, body_at, rate_of
 from equipoise.dynamics.sensitivities import Inputs
 from equipoise.estimation.tracker import event_signatures as onsets
 from equipoise.estimation.tracker.contact_test import LOST, judged, suspect
@@ -36,7 +36,7 @@ from equipoise.estimation.tracker.predict_correct import (
     add_stops,
     apply,
     begin,
-    drift_on,
+    carry,
     lean,
     note,
     placed,
@@ -44,9 +44,22 @@ from equipoise.estimation.tracker.predict_correct import (
     transition,
     unit_columns,
 )
-from equipoise.estimation.tracker.stored_covariance import coupled, give, take
+from equipoise.estimation.tracker.stored_covariance import (
+    DRIFT,
+    WARM_ROW,
+    coupled,
+    drifts,
+    give,
+    take,
+)
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.model.arrays import Floats
+
+
+@part
+def warmer(known: Floats, i: int) -> float:
+    """Return by how much (K) it becomes warmer in step i."""
+    return known[i + 1, KNOWN_WARMTH] - known[i, KNOWN_WARMTH]
 
 
 @part
@@ -55,10 +68,12 @@ def predict(
 ) -> Now:
     """Take estimate and covariance over step i; return the platform at its end."""
     moving, work, t = tools.moving, tools.work, inputs.t
-    y, phi = moving.y, moving.phi
+    y, phi, kelvins = moving.y, moving.phi, warmer(inputs.known, i)
+    carry(WARM_ROW, kelvins, end, work.P)
     now = body_at(body, inputs.maps, t, inputs.known, i, 0.0)
     lapse = t[i + 1] - t[i]
-    drift_on(0.5 * lapse, end, work.P)
+    drifted = 0.5 * lapse if drifts(work.P) else 0.0
+    carry(DRIFT, drifted, end, work.P)
     begin(now, end, y)
     unit_columns(now, rate_of(now, y), y)
     step(body, inputs, i, y, moving.step)
@@ -66,7 +81,7 @@ def predict(
     transition(now, body.mass, y, moving.step.fb, phi)
     predict_covariance(body.inertia, phi, model.walks, lapse, work)
     lean(now, phi, point, y, end)
-    drift_on(0.5 * lapse, end, work.P)
+    carry(DRIFT, drifted, end, work.P)
     begin(now, end, y)
     return now
 
@@ -173,8 +188,8 @@ def walk_on(
         now = predict(model, inputs, body, i, point, place.posterior, tools)
         stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
         if walk.testing:
-            lapse = rows.t[i + 1] - rows.t[i]
-            onsets.follow(watch, tools.moving.phi, lapse, tools.room)
+            kelvins, lapse = warmer(rows.known, i), rows.t[i + 1] - rows.t[i]
+            onsets.follow(watch, tools.moving.phi, kelvins, lapse, tools.room)
         known, before = settled(levels), iq + iw
         iq, iw = see(model, rows, walk, i + 1, iq, iw, now, known, carried, written, tools)
         if done[REASON] != END:
@@ -204,7 +219,8 @@ def run_filter(
 ) -> int:
     """Filter rows; return the node reached. ``point`` and what is carried come and go."""
     covariance = carried.place.covariance
-    tools = new_tools(rows.w_node.shape[0] > 0 or coupled(covariance))
+    warms = rows.known[:, KNOWN_WARMTH].min() != rows.known[:, KNOWN_WARMTH].max()
+    tools = new_tools(rows.w_node.shape[0] > 0 or warms or coupled(covariance))
     written.done[REASON] = END
     take(covariance, tools.work.P)
     reached = walk_on(model, rows, walk, point, carried, written, tools)

@@ -25,7 +25,7 @@ class Model(NamedTuple):
     maps: Floats
     columns: Columns
     sd: Floats  # (2,) rad, rad/s: stated noise of camera and gyro
-    walks: Floats  # (21,)
+    walks: Floats  # (24,)
     alarm: float  # l of a contact
 
 
@@ -41,10 +41,10 @@ class Walk(NamedTuple):
 
 
 class Place(NamedTuple):
-    """The estimate (q, w, com, J, bias, v) and its covariance, written on by the walk."""
+    """The estimate (q, w, com, J, bias, v, k) and its covariance, written on by the walk."""
 
-    posterior: Floats  # (22,)
-    covariance: Square  # (21, 21)
+    posterior: Floats  # (25,)
+    covariance: Square  # (24, 24)
 
     def copy(self) -> "Place":
         """Return one that can be written on."""
@@ -85,7 +85,7 @@ class Tools(NamedTuple):
 
 @kernel
 def new_tools(biased: bool) -> Tools:
-    """Return arrays to work in; ``biased``: the gyro's bias or a drift is in use."""
+    """Return arrays to work in; ``biased``: the gyro's bias, a drift or warmth is in use."""
     moving = Moving(np.empty(ROWS + BLOCK), work_for(N), np.zeros(6 * LANES))
     work = Work(np.zeros(SIZE * ROW), np.zeros(ROW), np.zeros(3 * ROW), np.zeros((3, 3)),
                 np.zeros((3, 3)), np.zeros(3 * ROW), np.zeros(3 * ROW), np.zeros(6 * ROW),

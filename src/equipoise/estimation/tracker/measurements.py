@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.stops import travels
+from equipoise.dynamics.rigid_body import KNOWN_WARMTH
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.model.arrays import Floats, Ints, Vector3
 from equipoise.model.recording import Recording, Samples
@@ -20,7 +21,7 @@ class Rows(NamedTuple):
     """What was measured and known from one moment on."""
 
     t: Floats  # (n+1,) s
-    known: Floats  # (n+1, 6 + k)
+    known: Floats  # (n+1, 7 + k), see ``Timeline``; warmth counts from the first row of all
     owners: Ints
     q: Floats  # (n_q, 4)
     q_node: Ints
@@ -63,6 +64,7 @@ def rows_of(recording: Recording, testbed: Testbed, fed: bool, since: float, spe
     line = timeline(
         np.append(since, tq[new_q]), tw[new_w], masses, len(testbed.masses),
         min(LONGEST_STEP, TURN_PER_STEP / (speed + 0.2)), recording.momentum, recording.torque,
+        temperature=recording.temperature,
     )  # fmt: skip
     stops, added = stop_covariances(recording if masses else Recording(), testbed, line, since)
     return Rows(
@@ -74,9 +76,10 @@ def rows_of(recording: Recording, testbed: Testbed, fed: bool, since: float, spe
 
 def followed_by(a: Rows, b: Rows) -> Rows:
     """Return rows and those that begin where they end."""
-    n = len(a.t) - 1
+    n, known = len(a.t) - 1, b.known.copy()
+    known[:, KNOWN_WARMTH] += a.known[-1, KNOWN_WARMTH]
     return Rows(
-        np.append(a.t, b.t[1:]), np.vstack([a.known[:-1], b.known]), a.owners,
+        np.append(a.t, b.t[1:]), np.vstack([a.known[:-1], known]), a.owners,
         np.vstack([a.q, b.q]), np.append(a.q_node, b.q_node + n),
         np.vstack([a.w, b.w]), np.append(a.w_node, b.w_node + n),
         np.append(a.stop_node, b.stop_node + n), np.concatenate([a.stop_added, b.stop_added]),

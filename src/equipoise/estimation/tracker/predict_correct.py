@@ -1,10 +1,13 @@
 """What a step of the tracker is made of, compiled: predict along the timeline, correct by a row.
 
     P- = Phi P Phi^T + Q dt        Phi from the propagator's sensitivities over the step
+    r <- r + k dT                  before it, of a platform that becomes warmer by dT
     r <- r + v dt/2                before and after it: the centre of mass drifts at v
     K  = P- H^T (H P- H^T + R)^-1,   x = K z,   P+ = (E - K H) P- (E - K H)^T + K R K^T
 
-H picks three rows of the error state (and the bias), so H P is a few rows of P.
+H picks three rows of the error state (and the bias), so H P is a few rows of P. What carries r on
+has F = E but for dT E (or dt/2 E) in the rows of r and the columns of k (or v): P <- F P F^T
+(docs/derivations.md, the tracker).
 """
 
 from typing import NamedTuple
@@ -14,9 +17,11 @@ from equipoise.dynamics.rigid_body import ROWS, Body, Now, rate_of, times
 from equipoise.dynamics.sensitivities import LANES
 from equipoise.estimation.tracker.linearisation_point import AT
 from equipoise.estimation.tracker.stored_covariance import (
+    COM_ROW,
     DRIFT,
     ROW,
     SIZE,
+    WARM_ROW,
     add_product,
     add_row,
     copy_row,
@@ -28,22 +33,23 @@ from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints, Six, Triple
 
 COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
-RATE_OF_COM = slice(DRIFT, SIZE)  # v
-DRIFTING = (*range(6, 15), *range(DRIFT, SIZE))  # r, J and v
+RATE_OF_COM = slice(DRIFT, WARM_ROW)  # v
+WARM = slice(WARM_ROW, SIZE)  # k
+DRIFTING = (*range(6, 15), *range(DRIFT, WARM_ROW))  # r, J and v
 
 
 class Work(NamedTuple):
-    """Arrays that a correction works in, made once; (3, 21) lie as rows of P do."""
+    """Arrays that a correction works in, made once; (3, 24) lie as rows of P do."""
 
-    P: Floats  # (21, 21) covariance, see ``stored_covariance``
-    x: Floats  # (21,) error state
-    HP: Floats  # (3, 21)
+    P: Floats  # (24, 24) covariance, see ``stored_covariance``
+    x: Floats  # (24,) error state
+    HP: Floats  # (3, 24)
     S: Floats  # (3, 3) covariance of the innovation
     inverse: Floats  # (3, 3) of S
-    K: Floats  # (3, 21) gain, transposed
-    left: Floats  # (3, 21) what Joseph's form adds, transposed
-    A: Floats  # (6, 21)
-    biased: bool  # bias or drift is in use
+    K: Floats  # (3, 24) gain, transposed
+    left: Floats  # (3, 24) what Joseph's form adds, transposed
+    A: Floats  # (6, 24)
+    biased: bool  # bias, drift or warmth is in use
 
 
 @part
@@ -134,27 +140,27 @@ def predict_covariance(inertia: Six, phi: Floats, noise: Floats, dt: float, work
 
 
 @part
-def drift_on(dt: float, end: Floats, P: Floats) -> None:
-    """Let r drift for so long (s): r + v dt, F P F^T with F = E + dt at (r, v).
+def carry(first: int, by: float, end: Floats, P: Floats) -> None:
+    """Write r + c by, c the states from row ``first`` on, and F P F^T with F = E + by at (r, c).
 
-    Only what is on and above the diagonal is read and written.
+    Drift carries r on by a time (s), warmth by kelvins. Of P only what is on and above the diagonal
+    is read and written.
     """
-    if P[DRIFT * ROW + DRIFT] == 0.0:
+    if by == 0.0:
         return
     for i in range(3):
-        r, v = 6 + i, DRIFT + i
-        end[AT + i] += dt * end[AT + 12 + i]
-        for j in range(6):
-            P[j * ROW + r] += dt * P[j * ROW + v]
+        r, c = COM_ROW + i, first + i
+        end[AT + i] += by * end[1 + c]
+        for j in range(COM_ROW):
+            P[j * ROW + r] += by * P[j * ROW + c]
         for k in range(i, 3):
-            both = P[r * ROW + DRIFT + k] + P[(6 + k) * ROW + v]
-            P[r * ROW + 6 + k] += dt * (both + dt * P[v * ROW + DRIFT + k])
+            both = P[r * ROW + first + k] + P[(COM_ROW + k) * ROW + c]
+            P[r * ROW + COM_ROW + k] += by * (both + by * P[c * ROW + first + k])
     for i in range(3):
-        r, v = 6 + i, DRIFT + i
-        for j in range(9, DRIFT):
-            P[r * ROW + j] += dt * P[j * ROW + v]
-        for k in range(3):
-            P[r * ROW + DRIFT + k] += dt * P[(DRIFT + min(i, k)) * ROW + DRIFT + max(i, k)]
+        r, c = COM_ROW + i, first + i
+        for j in range(COM_ROW + 3, SIZE):
+            low, high = min(j, c), max(j, c)
+            P[r * ROW + j] += by * P[low * ROW + high]
 
 
 @part
@@ -233,7 +239,7 @@ def shrink(first: int, second: int, R: float, work: Work) -> None:
 
 @part
 def apply(x: Floats, w: Triple, y: Floats, end: Floats) -> None:
-    """Write the estimate (q, w, com, J, bias, v) corrected by the error state; y holds q before."""
+    """Write the estimate (q, w, com, J, bias, v, k) corrected; y holds q before."""
     end[0], end[1], end[2], end[3] = turned(y, x[0], x[1], x[2])
     for m in range(3):
         end[4 + m] = w[m] + x[3 + m]
@@ -279,7 +285,7 @@ def innovation(now: Now, y: Floats, bias: Floats, observed: Floats) -> Triple:
 
 @part
 def note(t: float, end: Floats, P: Floats, surprise: float, out: Floats) -> None:
-    """Write the row: t, q, w, com, J, bias, v, sd, surprise."""
+    """Write the row: t, q, w, com, J, bias, v, k, sd, surprise."""
     n = end.shape[0]
     out[0], out[1 + n + SIZE] = t, surprise
     for j in range(n):

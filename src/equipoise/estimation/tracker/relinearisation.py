@@ -62,7 +62,7 @@ TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
 BODY = slice(AT, AT + 9)  # r and J in an estimate written as one array
 ERRORS = slice(6, 15)  # and in the error state
-MISLED, IN_ERRORS = np.r_[BODY, AT + 12 : AT + 15], np.r_[ERRORS, DRIFT:SIZE]  # the drift, too
+MISLED, IN_ERRORS = np.r_[BODY, AT + 12 : AT + 18], np.r_[ERRORS, DRIFT:SIZE]  # v and k, too
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,7 +103,7 @@ def anchored(memory: Memory, here: Place, node: int) -> Memory:
 
 
 def without(anchor: Place, here: Place) -> Place:
-    """Return a place that knows of r, J and v what the anchor did: rows since have misled it."""
+    """Return a place that knows of r, J, v and k what the anchor did: rows since have misled it."""
     found = here.copy()
     found.posterior[MISLED] = anchor.posterior[MISLED]
     found.covariance[IN_ERRORS] = found.covariance[:, IN_ERRORS] = 0.0

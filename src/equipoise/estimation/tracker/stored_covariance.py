@@ -1,9 +1,9 @@
 """The covariance of the error state as the kernels keep it, compiled.
 
 Row by row in one array, each row filled up with zeros to two blocks of LANES numbers, so that the
-compiler knows where everything is and works on whole machine vectors. What is known of bias and
-drift alone lies in the second block, which is passed over where no gyro has sent a row and the
-centre of mass is not taken to drift.
+compiler knows where everything is and works on whole machine vectors. What is known of bias, drift
+and warmth alone lies in the second block, which is passed over where no gyro has sent a row, the
+centre of mass is not taken to drift and nothing has become warmer.
 
 Between steps only what is on and above the diagonal counts; ``fill`` writes the rest, which only
 the prediction reads.
@@ -13,8 +13,8 @@ from equipoise.dynamics.sensitivities import LANES
 from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Square
 
-SIZE, N = 21, 15  # dth, dw, dr, dJ, db, dv; the propagator moves the first 15, in one block
-DRIFT = 18  # where dv stands
+SIZE, N = 24, 15  # dth, dw, dr, dJ, db, dv, dk; the propagator moves the first 15, in one block
+COM_ROW, DRIFT, WARM_ROW = 6, 18, 21  # where r, its drift v, and k, what a kelvin does, begin
 ROW = 2 * LANES  # numbers from one row to the next
 
 
@@ -36,8 +36,8 @@ def give(P: Floats, covariance: Square) -> None:
 
 @part
 def coupled(covariance: Square) -> bool:
-    """Say whether the bias has to do with the rest, or there may be a drift."""
-    for i in range(DRIFT, SIZE):
+    """Say whether bias or warmth has to do with the rest, or there may be a drift."""
+    for i in range(DRIFT, WARM_ROW):
         if covariance[i, i] != 0.0:
             return True
     for i in range(N):
@@ -45,6 +45,12 @@ def coupled(covariance: Square) -> bool:
             if covariance[i, j] != 0.0:
                 return True
     return False
+
+
+@part
+def drifts(P: Floats) -> bool:
+    """Say whether the centre of mass may drift."""
+    return P[DRIFT * ROW + DRIFT] != 0.0
 
 
 @part
@@ -91,7 +97,7 @@ def add_block(P: Floats, A: Floats, B: Floats, sign: float, rows: int, first: in
 
 @part
 def add_product(P: Floats, A: Floats, B: Floats, sign: float, biased: bool) -> None:
-    """Add sign A^T B, which is symmetric; A and B are (3, 18), in rows as those of P."""
+    """Add sign A^T B, which is symmetric; A and B are (3, 24), in rows as those of P."""
     add_block(P, A, B, sign, LANES, 0)
     if biased:
         add_block(P, A, B, sign, SIZE, LANES)

@@ -1,8 +1,9 @@
 """Tracker: multiplicative extended Kalman filter of attitude, rate, mass properties and gyro bias.
 
-    error state  x = [ dth, dw, dr, dJ, db, dv ]  (body axes; r and J with the masses at home)
-    prediction   the propagator; Phi from its sensitivities to first attitude, rate, moment, J
-                 r' = v: the centre of mass drifts, where the state's covariance says that it may
+    error state  x = [ dth, dw, dr, dJ, db, dv, dk ]  (body axes; r, J with the masses at home)
+    prediction   the propagator; Phi from its sensitivities to first attitude, rate, moment, J;
+                 r' = v: the centre of mass drifts, where the state's covariance says that it may;
+                 r <- r + k dT
     z_q = log( q_pred^-1 (x) q_meas ),  H = [E 0 0 0 0 0],  R = sd_q^2 E
     z_w = w_meas - w_pred - b,          H = [0 E 0 0 E 0],  R = sd_w^2 E
     q+  = q_pred (x) exp( dth+ )
@@ -17,6 +18,11 @@ The inertia is part of the state with its own sd, since an error of 2 % in it wo
 sd in r_z: as the swing shows J and r only by their ratio, r is never known better than J until a
 known move separates them. An sd of 0 takes the inertia as known.
 
+r is the centre of mass as warm as it is; k is what a kelvin moves it by. T is the recorded
+temperature or follows the recorded switch of a lamp that the testbed states (``lamp_warmth``), so
+that a lamp that goes on is no surprise. k begins as the estimate before has it, or as large as on
+benches. The time constant is taken as stated: what it is wrong by is left to the walk of r.
+
 Cannot see r along gravity until the platform has tilted, nor the scale of (J, r) before a move.
 
 What it does about what it does not know:
@@ -30,20 +36,29 @@ What it does about what it does not know:
                 (``measurement_update``)
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics import sensitivities
+from equipoise.dynamics.lamp_warmth import temperature_until
 from equipoise.dynamics.propagation import rigid_body, stacked
+from equipoise.dynamics.regressor import DRIFT
 from equipoise.estimation.tracker.kernel_records import EVENTS, Model, Place, Written
 from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.estimation.tracker.measurements import rows_of
-from equipoise.estimation.tracker.predict_correct import BODY, COM
+from equipoise.estimation.tracker.predict_correct import BODY, COM, WARM
 from equipoise.estimation.tracker.relinearisation import Memory, follow
 from equipoise.estimation.tracker.stored_covariance import SIZE
+from equipoise.estimation.tracker.warmth import (
+    Warmth,
+    heat_kept,
+    heat_of,
+    unknown_warmth,
+    warmth_of,
+)
 from equipoise.maths.chi_square import chi_square_limit
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
@@ -57,6 +72,7 @@ from equipoise.model.arrays import (
     Square,
     Vector3,
 )
+from equipoise.model.defects import nothing
 from equipoise.model.estimate import INERTIA, Estimate
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
@@ -66,7 +82,7 @@ Moves = Literal["fed", "ignored"]
 Kind = Literal["impulse", "step", "either", "lost"]
 KINDS: tuple[Kind, ...] = ("impulse", "step", "either", "lost")
 UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump unannounced
-WHERE = np.cumsum([4, 3, 3, 6, 3, 3])  # where the parts of an estimate written as one array end
+WHERE = np.cumsum([4, 3, 3, 6, 3, 3, 3])  # where the parts of an estimate written as one array end
 QUIET = 7200.0  # s, chosen: how often chance alone is called a contact; it costs what was known
 
 
@@ -79,7 +95,7 @@ class Params:
     torque_walk: float = 1e-6  # N m sqrt(s): air and bearing torques on a platform of some kg
     bias_walk: float = 1e-7  # rad/s/sqrt(s)
     drift_walk: float = 0.0  # m/s/sqrt(s), of the rate at which the centre of mass drifts
-    torque: Floats | None = None  # (19,) known coefficients
+    torque: Floats | None = None  # (19,) known coefficients; drift and warmth are not taken
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,6 +105,7 @@ class Posterior:
     com: Vector3  # m
     inertia_P: Matrix3  # kg m^2
     covariance: Square  # (9, 9) of com and of J as xx yy zz xy xz yz
+    warmth: Warmth = field(default_factory=unknown_warmth)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,9 +118,11 @@ class State:
     com: Vector3  # m, masses at home
     inertia_P: Matrix3  # kg m^2, masses at home
     bias: Vector3  # rad/s
-    drift: Vector3  # m/s, of com
-    covariance: Square  # (21, 21) of dth, dw, dr, dJ, db, dv
+    covariance: Square  # (24, 24) of dth, dw, dr, dJ, db, dv, dk
     memory: Memory | None = None  # of the rows before; None: this is where tracking begins
+    drift: Vector3 = field(default_factory=nothing)  # m/s, of com
+    thermal: Vector3 = field(default_factory=nothing)  # m/K
+    heat: Recording | None = None  # temperature and lamp so far, as far as later rows need them
 
     @property
     def noise_levels(self) -> Floats:
@@ -113,7 +132,9 @@ class State:
     @property
     def posterior(self) -> Posterior:
         """Return the estimate of the body."""
-        return Posterior(self.com, self.inertia_P, self.covariance[BODY, BODY])
+        P = self.covariance
+        warmth = Warmth(self.thermal, np.hstack([P[WARM, BODY], P[WARM, WARM]]))
+        return Posterior(self.com, self.inertia_P, P[BODY, BODY], warmth)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,7 +161,8 @@ class Track:
     inertia: Series  # (n, 6) kg m^2, xx yy zz xy xz yz
     bias: Series3
     drift: Series3  # m/s, of com
-    sd: Series  # (n, 21) of dth, dw, dr, dJ, db, dv
+    thermal: Series3  # m/K
+    sd: Series  # (n, 24) of dth, dw, dr, dJ, db, dv, dk
     surprise: Series1  # squared innovation over its covariance, 3 degrees of freedom
     contacts: tuple[Contact, ...]
     end: State
@@ -168,7 +190,7 @@ def posterior_of(testbed: Testbed, estimate: Estimate | None = None) -> Posterio
     covariance, inertia_P = np.diag(variance), testbed.body.inertia_P
     if estimate is not None and estimate.sees(INERTIA):
         covariance[3:, 3:], inertia_P = estimate.covariance_of(INERTIA), estimate.inertia_P
-    return Posterior(testbed.body.com, inertia_P, covariance)
+    return Posterior(testbed.body.com, inertia_P, covariance, warmth_of(estimate, ()))
 
 
 def first_state(
@@ -179,11 +201,13 @@ def first_state(
     covariance = np.zeros((SIZE, SIZE))
     noise = testbed.attitude.noise if testbed.attitude else 0.1
     bias = testbed.gyro.bias_sd if testbed.gyro else 0.0
-    spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 9 + [bias**2] * 3 + [0.0] * 3
+    spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 9 + [bias**2] * 3 + [0.0] * 6
     covariance[np.diag_indices(SIZE)] = spread
-    covariance[BODY, BODY] = posterior.covariance
-    still = np.zeros(3)
-    return State(t, q, still, posterior.com, posterior.inertia_P, still, still, covariance)
+    covariance[BODY, BODY], warmth = posterior.covariance, posterior.warmth
+    covariance[WARM, BODY], covariance[WARM, WARM] = np.split(warmth.covariance, [9], axis=1)
+    covariance[BODY, WARM] = covariance[WARM, BODY].T
+    return State(t, q, np.zeros(3), posterior.com, posterior.inertia_P, np.zeros(3), covariance,
+                 thermal=warmth.thermal)  # fmt: skip
 
 
 def contact_alarm(testbed: Testbed, recording: Recording) -> float:
@@ -206,23 +230,32 @@ def model_of(recording: Recording, testbed: Testbed, params: Params, state: Stat
     bias_walk = params.bias_walk if recording.rate is not None and len(recording.rate) else 0.0
     sd = [s.noise if s else 1.0 for s in (testbed.attitude, testbed.gyro)]
     return Model(
-        rigid_body(body, testbed.gravity, params.torque),
+        rigid_body(body, testbed.gravity, steady(params.torque)),
         stacked(mass_maps(testbed.masses)), filter_columns(), np.array(sd),
-        np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk, params.drift_walk], 3),
+        np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk, params.drift_walk, 0.0], 3),
         contact_alarm(testbed, recording),
     )  # fmt: skip
+
+
+def steady(torque: Floats | None) -> Floats | None:
+    """Return torque coefficients without drift and warmth, which the tracker follows by itself."""
+    return None if torque is None else np.where(np.arange(len(torque)) < DRIFT, torque, 0.0)
 
 
 def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
     """Return the estimate after every row later than the state; to go on, call from its end."""
     posterior = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
-                             state.bias, state.drift])  # fmt: skip
+                             state.bias, state.drift, state.thermal])  # fmt: skip
     speed, fed = float(np.linalg.norm(state.rate)), params.moves == "fed"
-    fresh = rows_of(recording, testbed, fed, state.t, speed)
+    heat = heat_of(state.heat, recording)
+    warmed = temperature_until(heat, testbed, state.t if not recording.rows else recording.span[1])
+    fresh = rows_of(replace(recording, temperature=warmed), testbed, fed, state.t, speed)
     model = model_of(recording, testbed, params, state)
     memory, here, written = follow(model, state.memory, Place(posterior, state.covariance), fresh)
-    q, w, com, J, b, v = np.split(here.posterior, WHERE[:-1])
-    end = State(float(fresh.t[-1]), q, w, com, unpack_symmetric(J), b, v, here.covariance, memory)
+    q, w, com, J, b, v, k = np.split(here.posterior, WHERE[:-1])
+    now = float(fresh.t[-1])
+    end = State(now, q, w, com, unpack_symmetric(J), b, here.covariance, memory, v, k,
+                heat_kept(heat, now))  # fmt: skip
     return track_of(written, end)
 
 
@@ -230,9 +263,9 @@ def track_of(written: Written, end: State) -> Track:
     """Return what the walk has written."""
     out = written.out
     at = np.split(out, [1, *(1 + WHERE), out.shape[1] - 1], axis=1)
-    t, q, w, com, J, b, v, sd, surprise = at
+    t, q, w, com, J, b, v, k, sd, surprise = at
     found = tuple(contact_of(event, end) for event in written.events[: written.done[EVENTS]])
-    return Track(t[:, 0], q, w, com, J, b, v, sd, surprise[:, 0], found, end)
+    return Track(t[:, 0], q, w, com, J, b, v, k, sd, surprise[:, 0], found, end)
 
 
 def contact_of(event: Floats, end: State) -> Contact:

@@ -32,7 +32,7 @@ class NamedColumn:
 
     name: str
     column: str
-    factor: float  # to SI: m, or rad/s, rad, A m^2 or N m, see ``model.devices``
+    factor: float  # to SI: m, or rad/s, rad, A m^2, T or N m, see ``model.devices``
 
 
 @dataclass(frozen=True, slots=True)

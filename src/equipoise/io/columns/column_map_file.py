@@ -69,7 +69,8 @@ Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 Axes = Annotated[list[Axis], Field(min_length=3, max_length=3)]
 Three = Annotated[list[str], Field(min_length=3, max_length=3)]
 # What a device reports: the kind of unit.
-QUANTITY = {"wheel": "rate", "gimbal": "angle", "dipole": "dipole", "jet": "torque"}
+QUANTITY = {"wheel": "rate", "gimbal": "angle", "dipole": "dipole", "cage": "magnetic",
+            "jet": "torque"}  # fmt: skip
 
 
 def _thrice(value: Any) -> Any:

@@ -1,22 +1,26 @@
 """The native columns of devices: what is reported in front, the unit behind.
 
-wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  jet_<name>_N_m
+wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  cage_<name>_uT  jet_<name>_N_m
 """
 
 import re
 
 from equipoise.io.columns.column_map import NamedColumn
 from equipoise.model.errors import InputError
-from equipoise.model.units import DEG
+from equipoise.model.units import DEG, UT
 
 # What is reported: its unit in the column's name, the size of that in SI.
 UNITS = {
     "wheel": ("rad_s", 1.0),
     "gimbal": ("deg", DEG),
     "dipole": ("A_m2", 1.0),
+    "cage": ("uT", UT),
     "jet": ("N_m", 1.0),
 }
-COLUMN = re.compile(r"(wheel)_(.+)_rad_s|(gimbal)_(.+)_deg|(dipole)_(.+)_A_m2|(jet)_(.+)_N_m")
+IN_SI = {"deg": "rad", "uT": "T"}  # how a unit that is not SI is written there
+COLUMN = re.compile(
+    r"(wheel)_(.+)_rad_s|(gimbal)_(.+)_deg|(dipole)_(.+)_A_m2|(cage)_(.+)_uT|(jet)_(.+)_N_m"
+)
 DEVICE = re.compile(f"({'|'.join(UNITS)}):(.+)")
 
 
@@ -41,8 +45,9 @@ def column_of(device: str) -> NamedColumn:
 
 def si_column(device: str) -> str:
     """Return the column of a device where all numbers are in SI, as in a log."""
-    native = column_of(device)
-    return native.column if native.factor == 1.0 else f"{native.column.rpartition('_')[0]}_rad"
+    native = column_of(device).column
+    stem, _, unit = native.rpartition("_")
+    return f"{stem}_{IN_SI[unit]}" if unit in IN_SI else native
 
 
 def wanted_column(name: str) -> str | None:

@@ -1,7 +1,8 @@
 """The native columns of a recording: names with units, to channels and back.
 
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_mm  h_x_N_m_s ...  torque_x_N_m ...
-    wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  jet_<name>_N_m  field_x_uT ...
+    wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  cage_<name>_uT  jet_<name>_N_m
+    field_x_uT ...
     temperature_degC  lamp_power  accel_x_m_s2 ...  sun_x ...
 
 One table for all channels; a cell is blank where its channel has no row at that time.
@@ -45,7 +46,7 @@ GROUPS = {
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
 OURS = re.compile(
-    r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature|lamp|accel|sun)_.*"
+    r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|cage|jet|field|temperature|lamp|accel|sun)_.*"
 )
 NAMED = 5  # columns that a note names; chosen: a screen
 

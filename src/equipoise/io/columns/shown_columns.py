@@ -2,7 +2,7 @@
 
 time_s  attitude_w ...  rate_x_rad_s ...  masses_<name>_m  momentum_x_N_m_s ...
 torque_x_N_m ...  field_x_T ...  temperature_air_degC  lamp_power
-wheel:<name>_rad_s  gimbal:<name>_rad  dipole:<name>_A_m2  jet:<name>_N_m
+wheel:<name>_rad_s  gimbal:<name>_rad  dipole:<name>_A_m2  cage:<name>_T  jet:<name>_N_m
 """
 
 import re
@@ -23,8 +23,8 @@ GROUPS = {
     "sun": tuple(f"sun_{axis}" for axis in "xyz"),
 }
 MASS = re.compile("masses_(.+)_m")
-DEVICE = re.compile("(?=wheel:.*_rad_s|gimbal:.*_rad|dipole:.*_A_m2|jet:.*_N_m)([a-z]+:.+?)"
-                    "_(rad_s|rad|A_m2|N_m)")  # fmt: skip
+DEVICE = re.compile("(?=wheel:.*_rad_s|gimbal:.*_rad|dipole:.*_A_m2|cage:.*_T|jet:.*_N_m)"
+                    "([a-z]+:.+?)_(rad_s|rad|A_m2|T|N_m)")  # fmt: skip
 
 
 def is_shown(names: tuple[str, ...]) -> bool:

@@ -23,6 +23,7 @@ Kind = InputKind
 MARKS: Mapping[InputKind, re.Pattern[str]] = {
     Kind.GIMBAL: re.compile(".*gimbal.*|cmgs?"),
     Kind.WHEEL: re.compile(".*wheel.*|rws?|rpm|tacho"),
+    Kind.CAGE: re.compile(".*helmholtz.*|cages?"),
     Kind.DIPOLE: re.compile(".*dipole.*|.*torquer.*|mt[qb]s?|coils?"),
     Kind.JET: re.compile(".*thrust.*|jets?|valves?|nozzles?|rcs"),
     Kind.MASS: re.compile(".*slider.*|mass|masses|stages?|steppers?"),

@@ -96,6 +96,28 @@ class Magnetorquer(RecordTable):
     mounting_sd_deg: NotNegative = MOUNTING_SD
 
 
+class CoilPair(RecordTable):
+    """A pair of coils of a Helmholtz cage around the bench; its field adds to [magnetic_field]."""
+
+    name: Name
+    axis: Annotated[Direction, Holds("axis_N")] = Field(description="laboratory axes, z up")
+    max_field_uT: Positive
+    field_uT: float = Field(0.0, description="along its axis, at the start")
+    lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the field")
+    gain_sd_percent: NotNegative = GAIN_SD
+    mounting_sd_deg: NotNegative = MOUNTING_SD
+    nonuniformity_percent: NotNegative = Field(
+        1.0, description="greatest deviation within the working volume, chosen: near its middle"
+    )
+
+    def record(self, where: str) -> model.CoilPair:
+        """Return the coil pair."""
+        if abs(self.field_uT) > self.max_field_uT:
+            wanted = f"at most max_field_uT = {self.max_field_uT:g} either way"
+            raise InputError(f"{where}.field_uT", f"{self.field_uT:g}", wanted)
+        return record_of(model.CoilPair, self, where)
+
+
 class JetPair(RecordTable):
     """On-off jets that give a pure torque about an axis, either way."""
 
@@ -111,7 +133,7 @@ class JetPair(RecordTable):
 
 
 class MagneticField(RecordTable):
-    """The field in the laboratory, uniform; of a Helmholtz cage, say."""
+    """The field in the laboratory, uniform; beside a cage, what there is without it."""
 
     field_uT: Annotated[Triple, Holds("field_N")] = Field(description="laboratory axes, z up")
     noise_uT: Positive | None = Field(
@@ -133,9 +155,22 @@ class Lamp(RecordTable):
 
     warms_K: Positive = Field(description="what it shines on, in the end; a guess will do")
     time_constant_s: Positive
+    direction: Annotated[Direction | None, Holds("direction_N")] = Field(
+        None,
+        description="to it, laboratory axes, z up: [sensor.sun] has rows while it is on",
+    )
 
 
-Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
+class Thermometer(RecordTable):
+    """A thermometer on the platform (column temperature_degC)."""
+
+    KIND = model.Thermometer
+
+    rate_hz: Positive
+    noise_K: NotNegative = Field(0.0, description="one sd of a row")
+
+
+Device = ReactionWheel | ControlMomentGyro | Magnetorquer | CoilPair | JetPair
 
 
 def check_device_names(devices: Mapping[str, Sequence[Device]], source: str) -> None:

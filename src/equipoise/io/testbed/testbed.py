@@ -9,6 +9,7 @@ from pydantic import Field
 from equipoise.io.testbed import devices
 from equipoise.io.testbed.hardware import Hardware, check_moved_masses
 from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
+from equipoise.io.testbed.true_surroundings import check_true_lamp, check_true_rows
 from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
 from equipoise.io.testbed.vector_sensors import Accelerometer, Magnetometer, Sun
 from equipoise.io.testbed.weights import Weight, WeightGrid, check_weights
@@ -85,6 +86,7 @@ class Sensors(Table):
     accelerometer: Accelerometer | None = None
     sun: Sun | None = None
     magnetometer: Magnetometer | None = None
+    temperature: Annotated[devices.Thermometer | None, Holds("thermometer")] = None
 
 
 class Disturbance(Table):
@@ -104,6 +106,7 @@ class TestbedFile(RecordTable):
     reaction_wheel: Annotated[list[devices.ReactionWheel], Holds("wheels")] = Field([])
     control_moment_gyro: Annotated[list[devices.ControlMomentGyro], Holds("cmgs")] = Field([])
     magnetorquer: Annotated[list[devices.Magnetorquer], Holds("magnetorquers")] = Field([])
+    coil_pair: Annotated[list[devices.CoilPair], Holds("coil_pairs")] = Field([])
     jet_pair: Annotated[list[devices.JetPair], Holds("jets")] = Field([])
     magnetic_field: devices.MagneticField | None = None
     weight: Annotated[list[Weight], Holds("weights")] = Field([])
@@ -145,34 +148,48 @@ def _check(file: TestbedFile, source: str) -> None:
     masses = [mass.name for mass in file.sliding_mass]
     check_names(file.sliding_mass, f"{source}: sliding_mass")
     check_total_mass(file.platform, file.sliding_mass, source)
-    kinds = ("reaction_wheel", "control_moment_gyro", "magnetorquer", "jet_pair")
+    kinds = ("reaction_wheel", "control_moment_gyro", "magnetorquer", "coil_pair", "jet_pair")
     devices.check_device_names({kind: getattr(file, kind) for kind in kinds}, source)
     check_weights(file.weight, file.weight_grid, source)
     _check_field(file, source)
+    _check_sun(file, source)
     _check_assumed(file, source)
     if file.truth is not None:
         check_true_drives(file.truth, masses, f"{source}: truth")
+        pairs = [pair.name for pair in file.coil_pair]
+        check_true_rows(file.truth.coil_pair, pairs, f"{source}: truth.coil_pair")
+        check_true_lamp(file.truth.lamp, file.truth.thermal_um_K, file.lamp, f"{source}: truth")
     if file.hardware is not None:
         check_moved_masses(file.hardware.board, masses, source)
 
 
 def _check_field(file: TestbedFile, source: str) -> None:
     magnetometer = file.sensor.magnetometer
-    if file.magnetic_field is not None:
-        if magnetometer is not None and file.magnetic_field.noise_uT is not None:
-            found = "a magnetometer, and noise_uT in [magnetic_field] as well"
-            raise InputError(f"{source}: sensor.magnetometer", found, "its noise in one place")
+    known = file.magnetic_field
+    if known is not None and magnetometer is not None and known.noise_uT is not None:
+        found = "a magnetometer, and noise_uT in [magnetic_field] as well"
+        raise InputError(f"{source}: sensor.magnetometer", found, "its noise in one place")
+    if file.magnetic_field is not None or file.coil_pair:
         return
     if magnetometer is not None:
-        wanted = "a table [magnetic_field] with field_uT, in laboratory axes"
+        wanted = "a table [magnetic_field] with field_uT, in laboratory axes, or [[coil_pair]]"
         where = f"{source}: sensor.magnetometer"
         raise InputError(where, "a magnetometer but no magnetic field", wanted)
     if file.magnetorquer:
-        wanted = "a table [magnetic_field] with field_uT, in laboratory axes"
+        wanted = "a table [magnetic_field] with field_uT, in laboratory axes, or [[coil_pair]]"
         raise InputError(f"{source}: magnetorquer", "magnetorquers but no magnetic field", wanted)
     if file.truth is not None and file.truth.field_uT is not None:
-        wanted = "a table [magnetic_field] with the nominal field"
+        wanted = "a table [magnetic_field] with the nominal field, or [[coil_pair]]"
         raise InputError(f"{source}: truth.field_uT", "a true field but none that is known", wanted)
+
+
+def _check_sun(file: TestbedFile, source: str) -> None:
+    sun, lamp = file.sensor.sun, file.lamp
+    stated = lamp is not None and lamp.direction is not None
+    if sun is None or sun.direction is not None or stated:
+        return
+    wanted = "the direction to its lamp, here or in [lamp], in laboratory axes"
+    raise InputError(f"{source}: sensor.sun.direction", "nothing", wanted)
 
 
 def _check_assumed(file: TestbedFile, source: str) -> None:

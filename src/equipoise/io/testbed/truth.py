@@ -8,6 +8,7 @@ from pydantic import Field
 
 from equipoise.io.testbed.inertia_check import check_inertia
 from equipoise.io.testbed.platform import Platform
+from equipoise.io.testbed.true_surroundings import TrueCoilPair, TrueLamp
 from equipoise.io.toml.key_types import (
     Direction,
     Five,
@@ -35,6 +36,7 @@ TORQUES = {
     "swirl_N_m": "swirl",
     "sag_um": "sag",
     "drift_um_min": "drift",
+    "thermal_um_K": "thermal",
 }
 BOX = 2.0  # sd on either side of the guess, when the file gives no box (chosen: 95 %)
 ZEROS = [0.0, 0.0, 0.0]
@@ -132,6 +134,9 @@ class Truth(RecordTable):
     swirl_N_m: float | None = None
     sag_um: Five | None = Field(None, description="xx, yy, xy, xz, yz")
     drift_um_min: Triple | None = None
+    thermal_um_K: Triple | None = Field(
+        None, description="centre of mass for each kelvin of warmth that the lamp brings"
+    )
     noise_torque_N_m: NotNegative = 0.0
     noise_correlation_s: Positive = 30.0
     gyro_bias_deg_s: Triple = Field(ZEROS)
@@ -165,13 +170,15 @@ class Truth(RecordTable):
     )
     mass_lag_s: NotNegative = Field(0.0, description="masses are so far behind their report")
     field_uT: Annotated[Triple | None, Holds("field_N")] = Field(
-        None, description="magnetic, laboratory axes, as it really is"
+        None, description="magnetic, laboratory axes, as it really is; beside a cage, without it"
     )
     fault: Annotated[list[Fault], Holds("faults")] = Field([])
     drive: Annotated[list[Drive], Holds("drives")] = Field([])
     contact: Annotated[list[Contact], Holds("contacts")] = Field([])
     com_step: Annotated[list[ComStep], Holds("com_steps")] = Field([])
     gap: Annotated[list[Gap], Holds("gaps")] = Field([])
+    coil_pair: Annotated[list[TrueCoilPair], Holds("cage")] = Field([])
+    lamp: TrueLamp | None = None
 
     @classmethod
     def more_keys(cls, record: Any) -> Mapping[str, Any]:

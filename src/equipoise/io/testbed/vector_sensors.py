@@ -33,8 +33,8 @@ class Sun(RecordTable):
 
     rate_hz: Positive
     noise: Positive = Field(description="one sd per axis and sample, of a unit vector")
-    direction: Annotated[Direction, Holds("direction_N")] = Field(
-        description="to the lamp, laboratory axes, z up"
+    direction: Annotated[Direction | None, Holds("direction_N")] = Field(
+        None, description="to the lamp, laboratory axes, z up; left out: as [lamp] has it"
     )
     delay_s: NotNegative = 0.0
     mounting_sd_deg: NotNegative = MOUNTING_SD

@@ -143,7 +143,7 @@ def _attribute(record: Any, path: str) -> Any:
     return record if path == ITSELF else reduce(getattr, path.split("."), record)
 
 
-def _tables(value: Any, schema: type[Table]) -> Value | None:
+def _tables(value: Any, schema: type[Table]) -> Any:
     if value is None:
         return None
     if isinstance(value, tuple):

@@ -52,6 +52,7 @@ TO_SI = {
     "kHz": 1e3,
     "percent": si.PERCENT,
     "K": 1.0,
+    "um/K": si.UM,
 }
 KINDS = {
     "time": ("s", "ms", "us", "ns", "100 ns", "min"),
@@ -74,6 +75,7 @@ SPOKEN = {
     "N_m_s": "N m s",
     "kg_m2": "kg m2",
     "um_min": "um/min",
+    "um_K": "um/K",
     "deg_s": "deg/s",
     "rad_s": "rad/s",
     "mm_s": "mm/s",

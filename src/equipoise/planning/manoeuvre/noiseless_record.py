@@ -20,7 +20,7 @@ from equipoise.dynamics.timeline import SAME, Timeline, place, timeline
 from equipoise.estimation.output_error.problem import longest_step
 from equipoise.maths.attitude import leaning
 from equipoise.model.arrays import Series1
-from equipoise.model.devices import recorded_name
+from equipoise.model.devices import at_start, recorded_name
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
@@ -62,14 +62,15 @@ def mass_track(testbed: Testbed, manoeuvre: Manoeuvre) -> Samples | None:
 
 
 def device_rows(testbed: Testbed, manoeuvre: Manoeuvre, t: Series1) -> Samples | None:
-    """Return the noiseless reports of wheels and gyros at times (s); others stand at 0."""
+    """Return the noiseless reports of wheels and gyros at times (s); others as at the start."""
     if not (testbed.wheels or testbed.cmgs):
         return None
     devices = started(testbed)
     for when, inputs in inputs_along(manoeuvre.waves, manoeuvre.duration):
         devices = driven(devices, tick_one(when), *inputs_of(testbed, inputs))
     rows = followed(devices, t)[1]
-    rows[:, len(testbed.wheels) + len(testbed.cmgs) :] = 0.0
+    first = len(testbed.wheels) + len(testbed.cmgs)
+    rows[:, first:] = [at_start(device) for device in testbed.devices[first:]]
     return Samples(t, rows)
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from equipoise.actuators.sliding_masses import shift_by
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.predict_correct import DRIFTING
+from equipoise.estimation.tracker.warmth import heat_of, warmth_of
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
@@ -96,7 +97,8 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
     t = float(knowledge.fitted.problem.line.t[-1])
     inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
     estimate, known = knowledge.estimate, (*knowledge.standing, *INERTIA)
-    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, estimate.covariance_of(known))
+    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, estimate.covariance_of(known),
+                                  warmth_of(estimate, known))  # fmt: skip
     state = tracker.first_state(t, q, testbed, posterior)
     drift, covariance = np.zeros(3), state.covariance.copy()
     if estimate.has(DRIFT[0]):
@@ -104,7 +106,8 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
         covariance[every] = estimate.covariance_of((*known, *DRIFT))
     for k in DRIFTING[-3:]:
         covariance[k, k] += WARMING**2
-    return replace(state, rate=rate, drift=drift, covariance=covariance)
+    heat = heat_of(None, knowledge.recording)
+    return replace(state, rate=rate, drift=drift, covariance=covariance, heat=heat)
 
 
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
@@ -139,8 +142,8 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
 
 
 def params_for(knowledge: Knowledge) -> tracker.Params:
-    """Return the tracker's options: its state has the drift, so the known torques have none."""
-    torque = without_drift(knowledge.fitted.point.torque)
+    """Return the tracker's options: its state has the drift."""
+    torque = knowledge.fitted.point.torque
     return tracker.Params(torque=torque, com_walk=COM_WALK, drift_walk=DRIFT_WALK)
 
 
@@ -154,13 +157,6 @@ def reason_to_stop(
         return None
     left = nearest_offset(later.com, displacement, testbed, options.target)
     return VerdictReason.RAILS_ENDED if bool(np.any(left > options.tolerance)) else None
-
-
-def without_drift(torque: Floats) -> Floats:
-    """Return torque coefficients without the drift, which the tracker follows by itself."""
-    kept = torque.copy()
-    kept[-3:] = 0.0
-    return kept
 
 
 def stop_step(bench: Bench, last: Measured, why: VerdictReason, duration: float) -> Step:

@@ -68,7 +68,7 @@ def lacking(card: LawCard, testbed: Testbed) -> list[Need]:
     has: dict[Need, bool] = {
         "masses": bool(testbed.masses),
         "momentum": span(axes_of(testbed.wheels)) or gyros_span(testbed.cmgs),
-        "magnetorquers": bool(testbed.magnetorquers) and testbed.magnetic_field is not None,
+        "magnetorquers": bool(testbed.magnetorquers) and testbed.field_N() is not None,
         "jets": span(axes_of(testbed.jets)),
         "gyro": testbed.gyro is not None,
         "attitude": testbed.attitude is not None,

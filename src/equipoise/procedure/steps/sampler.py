@@ -10,6 +10,7 @@ from equipoise.control.law import Sample
 from equipoise.estimation.motion.attitude_filter import AttitudeState, followed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.devices import at_start
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
@@ -28,8 +29,8 @@ class Eyes:
 
 def opened(testbed: Testbed) -> Eyes:
     """Return the state before the first record."""
-    masses, devices = len(testbed.masses), len(testbed.devices)
-    return Eyes(None, np.zeros(masses), np.zeros(devices), np.zeros(3), 0.0, None)
+    masses, states = len(testbed.masses), np.array([at_start(each) for each in testbed.devices])
+    return Eyes(None, np.zeros(masses), states, np.zeros(3), 0.0, None)
 
 
 def last_row(channel: Samples | None, before: Floats) -> Floats:
@@ -40,13 +41,14 @@ def last_row(channel: Samples | None, before: Floats) -> Floats:
 def sampled(eyes: Eyes, fresh: Recording, testbed: Testbed) -> Eyes:
     """Return the state after a fresh record."""
     stored, attitude = fresh.momentum, followed(eyes.attitude, fresh, testbed)
+    states = last_row(fresh.devices, eyes.states)
     return Eyes(
         attitude,
         last_row(fresh.masses, eyes.displacement),
-        last_row(fresh.devices, eyes.states),
+        states,
         last_row(stored, eyes.momentum),
         eyes.t if stored is None or not len(stored) else float(stored.t[-1]),
-        field_of(attitude, fresh, testbed),
+        field_of(attitude, fresh, testbed, states),
     )
 
 
@@ -89,12 +91,18 @@ def _over(channel: Samples) -> Floats:
     return whole
 
 
-def field_of(attitude: AttitudeState | None, fresh: Recording, testbed: Testbed) -> Vector3 | None:
-    """Return the magnetic field in body axes (T): measured, else the laboratory's, turned."""
+def field_of(
+    attitude: AttitudeState | None, fresh: Recording, testbed: Testbed, states: Floats
+) -> Vector3 | None:
+    """Return the magnetic field in body axes (T): measured, else the laboratory's, turned.
+
+    That of a cage is as its coils report it among the devices' ``states``.
+    """
     if fresh.field is not None and len(fresh.field):
         return fresh.field.values.mean(axis=0)
-    known = testbed.magnetic_field
+    first = len(testbed.devices) - len(testbed.jets) - len(testbed.coil_pairs)
+    known = testbed.field_N(states[first : first + len(testbed.coil_pairs)])
     if known is None or attitude is None:
         return None
-    turned: Vector3 = to_matrix(attitude.q).T @ known.field_N
+    turned: Vector3 = to_matrix(attitude.q).T @ known
     return turned

@@ -1,0 +1,1 @@
+"""What surrounds the simulated platform: a lamp that warms it, and its magnetic field."""
