@@ -45,7 +45,7 @@ RATIO = 1.1  # chosen: w_a over the speed of the cone, the best for ZETA
 SPEED = 1.0  # chosen: w_a |r| / v
 BIAS = 4e-6  # m, chosen: what a wrong inertia may leave along up
 FIRM = 0.01  # chosen: inertia is not taken to be known better, as to the speed
-NEAR = 0.1 * BIAS  # m, chosen: an offset that no longer counts beside that
+NEAR = 0.2 * BIAS  # m, chosen: beside that it counts for a fiftieth, in squares
 CONE = 0.6  # of the tilt limit, chosen: the cone
 STRAY = 0.5  # of the tilt limit, chosen: what an offset may add, at first, while the cone is small
 NARROWEST = np.radians(1.0)  # chosen
@@ -71,6 +71,11 @@ class Cone(NamedTuple):
     def turn(self) -> float:
         """Return how long it takes to go round, s."""
         return 2 * np.pi / self.speed
+
+    @property
+    def fading(self) -> float:
+        """Return how fast (1/s) an offset fades per share of time that it is across gravity."""
+        return self.decay / float(np.sin(self.angle)) ** 2
 
 
 def decay(angle: float, speed: float, frequency: float, damping: float) -> float:
@@ -121,7 +126,7 @@ def height_of_inertia(testbed: Testbed, speed: float) -> float:
 
 
 def least_frequency(testbed: Testbed) -> float:
-    """Return the least w_a (rad/s) with which a likely offset tilts by STRAY: m g |r| / (J w_a^2)."""
+    """Return the w_a (rad/s) with which a likely offset tilts by STRAY: m g |r| / (J w_a^2)."""
     weight = testbed.weight / offsets.level_inertia(testbed)
     return float((weight * offsets.likely_offset(testbed) / (STRAY * testbed.tilt_limit)) ** 0.5)
 

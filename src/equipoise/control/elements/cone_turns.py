@@ -23,6 +23,7 @@ class Turns(NamedTuple):
     """The turns so far."""
 
     rests: tuple[float, float]  # m, after the last two turns; at first the prior's sd
+    observed: Matrix3  # s, the integral since the start
     whole: int = 0  # turns
     rows: int = 0  # of this turn
     total: Floats = np.zeros(3)  # m, sum of their shifts
@@ -35,19 +36,25 @@ class Turns(NamedTuple):
         return max(self.rests)
 
 
-def counted(turns: Turns, turn: int, shift: Vector3, observed: Matrix3, fading: float) -> Turns:
-    """Return the turns after a row of the turn ``turn``, counted from zero.
+def first_turn(unknown: float) -> Turns:
+    """Return the beginning, with an offset of which ``unknown`` (m) is one sd."""
+    return Turns((unknown, unknown), np.zeros((3, 3)))
 
-    ``fading`` (1/s) is d / sin^2 A, ``observed`` (s) the integral since the start.
-    """
+
+def swept(turns: Turns, down: Vector3, duration: float) -> Turns:
+    """Return the turns after so many seconds with gravity along ``down`` and the right torque."""
+    return turns._replace(observed=turns.observed + duration * (np.eye(3) - np.outer(down, down)))
+
+
+def counted(turns: Turns, turn: int, shift: Vector3, fading: float) -> Turns:
+    """Return the turns after a row of one of them, from 0; ``fading`` (1/s) is d / sin^2 A."""
     if turn == turns.whole:
         return turns._replace(rows=turns.rows + 1, total=turns.total + shift)
     mean = turns.total / max(turns.rows, 1)
-    least = float(np.linalg.eigvalsh(observed)[0])
+    least = float(np.linalg.eigvalsh(turns.observed)[0])
     fresh = turns._replace(whole=turn, rows=1, total=shift, mean=mean, swept=least)
     if turns.mean is None:
         return fresh
-    moved = float(np.linalg.norm(mean - turns.mean))
-    p = fading * (least - turns.swept)
+    moved, p = float(np.linalg.norm(mean - turns.mean)), fading * (least - turns.swept)
     rest = moved * p / float(np.expm1(p)) ** 2 if p > 0 else np.inf
     return fresh._replace(rests=(turns.rests[1], rest))

@@ -4,8 +4,8 @@ Gravity's direction n = g_B / g is to go round a cone that opens slowly about le
 
     n_d = -cos(a) up + sin(a) p,    p = cos(W t) e1 + sin(W t) e2,    a = A (1 - (1 + t/s) e^-t/s)
 
-so that nothing jumps at the start; s is OPENS turns, 2 pi / W each. With n' = n x w the rate for that, and for coming
-back when n has strayed, is
+so that nothing jumps at the start; s is OPENS turns of 2 pi / W. With n' = n x w the rate for that,
+and for coming back when n has strayed, is
 
     w_d  = n_d' x n_d + k n_d x n
     w_d' = n_d'' x n_d + k (n_d' x n + n_d x (n x w))
@@ -19,7 +19,6 @@ import numpy as np
 
 from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Matrix3, Vector3
-
 
 OPENS = 0.5  # turns, chosen: a cone that is nine tenths open after two
 

@@ -47,7 +47,7 @@ from equipoise.control.elements.cone_plan import (
     cone_for,
     height_of_inertia,
 )
-from equipoise.control.elements.cone_turns import Turns, counted
+from equipoise.control.elements.cone_turns import Turns, counted, first_turn, swept
 from equipoise.control.elements.sweep import Sweep, Wanted, wanted
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant import offset_bounds as offsets
@@ -96,7 +96,6 @@ class State:
     """The progress of the law."""
 
     shift: Vector3  # m, s
-    observed: Matrix3  # s, int (E - n n^T) dt, over rows with the requested torque
     turns: Turns
     start: float | None = None  # s
     gravity: Vector3 | None = None  # m/s^2, at the last step
@@ -119,8 +118,8 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         LEAD * greatest_slew(testbed) * PERIOD + offsets.coarsest_step(testbed),
         SHORT * capacity(testbed).torque, testbed.tilt_at_stop, PERIOD,
     )  # fmt: skip
-    unknown = float(np.linalg.norm(testbed.com_sd))
-    return State(target - testbed.body.com, np.zeros((3, 3)), Turns((unknown, unknown))), params
+    turns = first_turn(float(np.linalg.norm(testbed.com_sd)))
+    return State(target - testbed.body.com, turns), params
 
 
 def expected(params: Params) -> float:
@@ -137,19 +136,19 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
         return state, Command(finished=one_reason(LawReason.TILTED))
     past, sweep = sample.t - start, sweep_now(state, params)
     want = wanted(sweep, past, down, sample.rate)
-    rate = sample.rate + params.late * want.slope
-    own = params.inertia @ rate
+    sample = replace(sample, rate=sample.rate + params.late * want.slope)
+    own = params.inertia @ sample.rate
     error = own - params.inertia @ want.rate
-    requested = cross(rate, own + sample.momentum) - params.gain * error
+    requested = cross(sample.rate, own + sample.momentum) - params.gain * error
     requested += steering(params, sweep, sample, past, want)
     if state.over:
         return levelling(state, requested, float(-params.sweep.axes[:, 2] @ down), past, params)
-    rest = error - mean_moment(params) * rate
+    rest = error - mean_moment(params) * sample.rate
     ahead = adapted(state, sample, rest, params) - sample.shift
     most = max(params.lead, float(np.linalg.norm(state.shift - sample.shift)))
     shift = sample.shift + limited(ahead, most)
-    seen, turns = watched(state, sample, params, past)
-    after = State(shift, seen, turns, start, sample.gravity, rest, requested)
+    turns = watched(state, sample, params, past)
+    after = State(shift, turns, start, sample.gravity, rest, requested)
     note = beginning(params) if state.start is None else ()
     return concluded(after, past, params), Command(shift, requested, note=note)
 
@@ -174,14 +173,11 @@ def concluded(state: State, past: float, params: Params) -> State:
     What goes round with the cone is no offset.
     """
     over = why_over(state, past, params)
-    if not over or state.turns.mean is None:
-        return replace(state, over=over, since=past)
-    return replace(state, over=over, since=past, shift=state.turns.mean)
+    mean = state.turns.mean if over else None
+    return replace(state, over=over, since=past, shift=state.shift if mean is None else mean)
 
 
-def steering(
-    params: Params, sweep: Sweep, sample: Sample, past: float, want: Wanted
-) -> Vector3:
+def steering(params: Params, sweep: Sweep, sample: Sample, past: float, want: Wanted) -> Vector3:
     """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is held."""
     half = params.period / 2
     gravity = sample.gravity + half * cross(sample.gravity, sample.rate)
@@ -214,20 +210,12 @@ def was_given(state: State, sample: Sample, params: Params) -> bool:
     return float(np.linalg.norm(state.torque - sample.torque)) <= params.short
 
 
-def watched(
-    state: State, sample: Sample, params: Params, past: float
-) -> tuple[Matrix3, Turns]:
-    """Return what gravity has swept, and the turns of the cone, after a sample."""
-    down = sample.gravity / float(np.linalg.norm(sample.gravity))
-    fresh = params.period * (np.eye(3) - np.outer(down, down))
-    observed = state.observed + was_given(state, sample, params) * fresh
-    turn = int(past / params.cone.turn)
-    return observed, counted(state.turns, turn, sample.shift, observed, fading(params))
-
-
-def fading(params: Params) -> float:
-    """Return how fast (1/s) an offset fades per share of the time that it is across gravity."""
-    return params.cone.decay / float(np.sin(params.cone.angle)) ** 2
+def watched(state: State, sample: Sample, params: Params, past: float) -> Turns:
+    """Return the turns of the cone after a sample."""
+    turns, down = state.turns, sample.gravity / float(np.linalg.norm(sample.gravity))
+    if was_given(state, sample, params):
+        turns = swept(turns, down, params.period)
+    return counted(turns, int(past / params.cone.turn), sample.shift, params.cone.fading)
 
 
 def beginning(params: Params) -> tuple[Reason, ...]:
@@ -253,11 +241,9 @@ def why_still(state: State, past: float, params: Params) -> tuple[Reason, ...]:
     """Return why a law that sweeps nothing ends here, or nothing."""
     if past * params.gain < QUIET:
         return ()
-    values, vectors = np.linalg.eigh(state.observed)
+    values, vectors = np.linalg.eigh(state.turns.observed)
     axis = axes_of("axis", vectors[:, 0])
-    return one_reason(
-        LawReason.DIRECTION_NOT_SWEPT, least=float(values[0]), past=past, **axis
-    )
+    return one_reason(LawReason.DIRECTION_NOT_SWEPT, least=float(values[0]), past=past, **axis)
 
 
 LAW = Law(
