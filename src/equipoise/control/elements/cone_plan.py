@@ -35,7 +35,6 @@ from equipoise.control.plant import offset_bounds as offsets
 from equipoise.control.plant.actuator_limits import greatest_slew
 from equipoise.control.plant.wheel_capacity import Capacity, capacity
 from equipoise.maths.linalg import skew
-from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
@@ -88,23 +87,23 @@ def decay(angle: float, speed: float, frequency: float, damping: float) -> float
     return max(-float(np.linalg.eigvals(loop).real.max()), 0.0)
 
 
-def cone_for(testbed: Testbed, target: Vector3, period: float) -> Cone:
+def cone_for(testbed: Testbed, period: float) -> Cone:
     """Return the cone that takes least time; InputError where none can be."""
     least = least_frequency(testbed)
     most = offsets.greatest_frequency(testbed, least, SPEED, period)
     fastest = min(greatest_speed(testbed), most / RATIO)
     speeds = fastest * np.geomspace(SLOWEST, 1.0, SPEEDS)
-    cones = [cone_at(testbed, target, float(speed), least) for speed in speeds]
+    cones = [cone_at(testbed, float(speed), least) for speed in speeds]
     wide = [cone for cone in cones if cone.angle >= NARROWEST]
     if not wide or spare(testbed).torque < testbed.weight * offsets.likely_offset(testbed):
-        raise too_weak(testbed, target, max(cone.angle for cone in cones))
+        raise too_weak(testbed, max(cone.angle for cone in cones))
     return min(wide, key=lambda cone: cone.expected)
 
 
-def cone_at(testbed: Testbed, target: Vector3, speed: float, least: float) -> Cone:
+def cone_at(testbed: Testbed, speed: float, least: float) -> Cone:
     """Return the widest cone of a speed (rad/s), with a loop no slower than ``least`` (rad/s)."""
     w = max(RATIO * speed, least)
-    angle = widest(testbed, target, w, speed)
+    angle = widest(testbed, w, speed)
     rate = decay(angle, speed, w, ZETA) if angle > 0 else 0.0
     if rate <= 0:
         return Cone(speed, angle, w, rate, np.inf)
@@ -139,21 +138,20 @@ def spare(testbed: Testbed) -> Capacity:
     return Capacity(share * most.torque, share * most.momentum - stored)
 
 
-def unmet_height(testbed: Testbed, target: Vector3, speed: float) -> float:
+def unmet_height(testbed: Testbed, speed: float) -> float:
     """Return what torque has to hold up along up on the cone, m.
 
-    Masses go to the target from the nominal centre of mass while the cone opens, a turn or longer.
+    Masses take the nominal centre of mass to P while the cone opens, a turn or longer.
     """
-    way = abs(float(testbed.up @ (testbed.body.com - target)))
+    way = abs(float(testbed.up @ testbed.body.com))
     late = max(way - greatest_slew(testbed) * 2 * np.pi / speed, 0.0)
-    unknown = offsets.LIKELY * offsets.height_sd(testbed)
-    return late + unknown + float(np.linalg.norm(target))
+    return late + offsets.LIKELY * offsets.height_sd(testbed)
 
 
-def widest(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
+def widest(testbed: Testbed, w: float, W: float) -> float:
     """Return the half-angle (rad) that tilt limit, torque and momentum allow; none: 0 or less."""
     J, weight, have = offsets.level_inertia(testbed), testbed.weight, spare(testbed)
-    height = unmet_height(testbed, target, W)
+    height = unmet_height(testbed, W)
     momentum = have.momentum - weight * offsets.likely_offset(testbed) * 2 * ZETA / w
     return min(
         CONE * testbed.tilt_limit,
@@ -162,10 +160,10 @@ def widest(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
     )
 
 
-def too_weak(testbed: Testbed, target: Vector3, angle: float) -> InputError:
+def too_weak(testbed: Testbed, angle: float) -> InputError:
     """Return what to raise where wheels or gyros allow no cone."""
     have, offset = spare(testbed), offsets.likely_offset(testbed)
-    height = offsets.LIKELY * offsets.height_sd(testbed) + float(np.linalg.norm(target))
+    height = offsets.LIKELY * offsets.height_sd(testbed)
     return InputError(
         testbed.name,
         f"{have.torque:.3g} N m and {have.momentum:.3g} N m s of wheels or gyros to count on, "

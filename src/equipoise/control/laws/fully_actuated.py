@@ -1,7 +1,7 @@
 """Balance with masses while wheels or gyros hold a momentum trajectory.
 
 (Kim & Agrawal 2009; da Silva 2021 section 4.2 with erratum R24: [g_b x] and not [w x].) The law of
-momentum, h stored in wheels or gyros, s the shift by masses, r + s wanted at r*:
+momentum, h stored in wheels or gyros, s the shift by masses:
 
     (J w)' = -w x (J w + h) - h' + m (r + s) x g_b
 
@@ -9,12 +9,12 @@ Published with one H_s for all momentum. But momentum that passes between platfo
 not change their sum: it is J w alone that -h' can steer, and J w + h that turns with the body. So,
 with e = J w - H_d,
 
-    -h' = w x (J w + h) - K e + H_d' - m r* x g_b        the requested torque, K > 0
+    -h' = w x (J w + h) - K e + H_d'                     the requested torque, K > 0
     s'  = Gamma m [g_b x]^T e = -Gamma m g_b x e
-    e'  = -K e - m [g_b x] (r + s - r*)
-    V   = |e|^2 / 2 + |r + s - r*|^2 / (2 Gamma),        V' = -K |e|^2
+    e'  = -K e - m [g_b x] (r + s)
+    V   = |e|^2 / 2 + |r + s|^2 / (2 Gamma),             V' = -K |e|^2
 
-e and r + s - r* are a filter of frequency w_a: Gamma = (w_a / (m g))^2, K = 2 zeta w_a. For J = jE
+e and r + s are a filter of frequency w_a: Gamma = (w_a / (m g))^2, K = 2 zeta w_a. For J = jE
 and H_d = 0, s = s(0) - Gamma m j (g_b - g_b(0)): a function of the tilt, and no balance. The steps
 keep that identity exactly, as s takes j times the measured increment of g_b, j being a third of
 tr J, and the trapezoid rule of the rest.
@@ -28,7 +28,8 @@ changed since by w_d' late. Left out, that is K late of the inertia, and a heigh
 
 Masses have come to rest when their way in a turn of the cone shows that less than NEAR is left
 (``cone_turns``), in two turns. The law gives up after LONG times as long as that should take. They
-then go to their mean of the last turn, and the platform goes back to level, by which it has ended.
+then go to their mean of the last turn, and the platform goes back to level. Last of all they shift
+by the target r*, which needs no torque of the devices before that.
 
 Anti-windup: s does not come to lead the reported shift by more than ``lead``, and does not change
 while the measured torque differs from the requested one.
@@ -108,7 +109,7 @@ class State:
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return state and parameters; InputError where the loop would not be stable."""
     m, g = testbed.body.mass, testbed.gravity
-    cone = cone_for(testbed, target, PERIOD)
+    cone = cone_for(testbed, PERIOD)
     w = cone.frequency
     axes = np.column_stack([*offsets.around(testbed.up), testbed.up])
     params = Params(
@@ -119,7 +120,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         SHORT * capacity(testbed).torque, testbed.tilt_at_stop, PERIOD,
     )  # fmt: skip
     turns = first_turn(float(np.linalg.norm(testbed.com_sd)))
-    return State(target - testbed.body.com, turns), params
+    return State(-testbed.body.com, turns), params
 
 
 def expected(params: Params) -> float:
@@ -164,7 +165,9 @@ def levelling(
     """Return a step on the way back to level, by which the law ends; ``up`` is cos(tilt)."""
     time = past - state.since > WAIT / max(params.sweep.hold, 1e-9)
     there = up >= np.cos(LEVELLED) or params.sweep.angle <= 0
-    return state, Command(state.shift, requested, finished=state.over if there or time else ())
+    if there or time:
+        return state, Command(state.shift + params.target, requested, finished=state.over)
+    return state, Command(state.shift, requested)
 
 
 def concluded(state: State, past: float, params: Params) -> State:
@@ -178,12 +181,12 @@ def concluded(state: State, past: float, params: Params) -> State:
 
 
 def steering(params: Params, sweep: Sweep, sample: Sample, past: float, want: Wanted) -> Vector3:
-    """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is held."""
+    """Return H_d' (N m) in the middle of the period for which a torque is held."""
     half = params.period / 2
     gravity = sample.gravity + half * cross(sample.gravity, sample.rate)
     rate = sample.rate + half * want.slope
     slope = wanted(sweep, past + half, gravity / float(np.linalg.norm(gravity)), rate).slope
-    return params.inertia @ slope - params.mass * cross(params.target, gravity)
+    return params.inertia @ slope
 
 
 def mean_moment(params: Params) -> float:
@@ -253,7 +256,7 @@ LAW = Law(
         "Kim & Agrawal 2009; da Silva 2021 section 4.2 with erratum R24",
         ("masses", "momentum", "gyro", "attitude"),
         "the part along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
-        "dJ (4 um for one inertia_sd); an offset of 0.4 um, by the masses' way in a turn",
+        "dJ (4 um for one inertia_sd); an offset of 0.8 um, by the masses' way in a turn",
         "w_a T up to 0.1, w_a |r| / v up to 1; the torque of |r| sideways, and its momentum in "
         "2 zeta / w_a, within the devices'. It is as slow as they are weak, and says at its start "
         "how long it should take",
