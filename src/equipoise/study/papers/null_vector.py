@@ -2,8 +2,8 @@
 
 The same platform is balanced twice by the law of Kim and Agrawal (``control.laws.fully_actuated``):
 
-    plain   V = |G|^2 / 2 + r Psi^-1 r / 2:              momentum is to vanish, G' + K G = -m [g_B x] r
-    led     V = |G - G_d|^2 / 2 + r Psi^-1 r / 2 (42):   momentum is to follow a trajectory
+    plain   V = |G|^2 / 2 + r^T Psi^-1 r / 2            G' + K G = -m [g_B x] r
+    led     V = |G - G_d|^2 / 2 + r^T Psi^-1 r / 2      Eq. 42, the same with G - G_d
 
 with erratum R24. G = J w is the platform's momentum, G_d leads gravity round a cone. The first ends
 where r is parallel to g_B: momentum is conserved and the platform is not balanced.
@@ -18,12 +18,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.control.elements.sweep import Sweep
 from equipoise.control.law import Sample
 from equipoise.control.laws.fully_actuated import LAW, Params
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.dynamics.rigid_body import Body
-from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.maths.attitude import exponential, level, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Series1, Series3, Vector3

@@ -14,9 +14,9 @@ from equipoise.study.papers.null_vector import Course, NullVector
 TITLES = ("plain Lyapunov function", "with a momentum trajectory (Eq. 42)")
 LABELS = ("momentum $|J\\omega|$, N m s", "centre of mass $r$, um", "angle of $r$ and $g_B$, deg")
 CAPTION = (
-    "da Silva Fig. 3. One platform balanced twice by masses and gyros. Left: momentum is to vanish, "
-    "and does; r comes to rest along gravity, and the platform is not balanced. Right: momentum "
-    "leads gravity round a cone, and r vanishes. Ideal devices; body axes."
+    "da Silva Fig. 3. One platform balanced twice by masses and gyros. Left: momentum is to "
+    "vanish, and does; r comes to rest along gravity, and the platform is not balanced. Right: "
+    "momentum leads gravity round a cone, and r vanishes. Ideal devices; body axes."
 )
 
 
