@@ -11,6 +11,8 @@ from equipoise.control.laws.fully_actuated import LAW, State, step
 from equipoise.maths.attitude import exponential
 from equipoise.maths.linalg import cross
 from equipoise.model.errors import InputError
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.testbed import Gyro
 from tests.support import thorough
 from tests.support.ideal_bench import (
@@ -257,6 +259,23 @@ def test_it_ends_level_with_masses_at_their_mean_of_a_turn():
     assert np.linalg.norm(rows[-1].rate) < np.radians(0.2)
     resting = np.array([row.shift for row in rows[-100:]])
     assert np.ptp(resting, axis=0).max() < 1e-9
+
+
+def test_the_target_is_a_shift_at_the_end():
+    """Level again: masses go from where they balance to where the centre of mass is wanted."""
+    target = np.array([2e-5, -1e-5, -1e-4])
+    state, params = LAW.begin(bed(), target)
+    bench = Bench(bed(), COM)
+    observed = sample(started(bench, LEVEL, np.zeros(3)), bench, np.random.default_rng(0))
+    over = replace(state, start=0.0, shift=-COM, over=one_reason(LawReason.MASSES_AT_REST,
+                   turns=8, rest=1e-7, height=4e-6))  # fmt: skip
+    command = step(over, observed, params)[1]
+    assert command.finished
+    np.testing.assert_allclose(command.shift, target - COM)
+    tilted = replace(observed, gravity=GRAVITY * np.array([0.1, 0.0, -(0.99**0.5)]))
+    waiting = step(over, tilted, params)[1]
+    assert not waiting.finished
+    np.testing.assert_allclose(waiting.shift, -COM)
 
 
 def test_it_gives_up_when_masses_do_not_come_to_rest():
