@@ -129,3 +129,10 @@ def test_gyros_count_for_half():
     assert have.momentum == pytest.approx(0.4 * most.momentum)
     assert have.torque == pytest.approx(0.4 * most.torque)
     assert cone_for(bed(wheels=(), cmgs=gyros), PERIOD)
+
+
+def test_a_wrong_inertia_leaves_a_height_with_the_square_of_the_speed():
+    """A hundredth of 0.29 kg m^2 at 0.3 rad/s: 2.9e-3 * 0.09 / 137.34 = 1.90 um."""
+    assert cone_plan.height_of_inertia(bed(), 0.3) == pytest.approx(1.900e-6, rel=1e-3)
+    fastest = cone_plan.greatest_speed(bed())
+    assert cone_plan.height_of_inertia(bed(), fastest) == pytest.approx(cone_plan.BIAS)

@@ -6,9 +6,8 @@ from equipoise.app.text.blocks import Blocks, Column, Pairs, prose, table
 from equipoise.app.text.json_lists import LAWS
 from equipoise.app.text.json_shape import View
 from equipoise.app.views.card_views import law_pairs
-from equipoise.model.law_card import NEEDS, LawCard
+from equipoise.model.law_card import NEEDS, LawCard, Prospect
 from equipoise.model.units import MINUTE
-from equipoise.procedure.balancing.prospect import Prospect
 
 
 def blocks(name: str, cards: Sequence[LawCard], prospects: Sequence[Prospect]) -> Blocks:

@@ -20,7 +20,7 @@ momentum is (J W + m g h / W) A, with h the height that is not known, beside m g
 for ever; their torque (J W^2 + m g h) A once masses have met r. A slower cone may therefore be a
 wider one. Of all speeds that one is taken with which an offset of one sd fades soonest:
 
-    T = OPENING 2 pi / W + ln(sd / NEAR) / d + SEEN 2 pi / W + ln(A / LEVELLED) / k
+    T = OPENING 2 pi / W + ln(sd / NEAR) / d + CONFIRMING 2 pi / W + ln(A / LEVELLED) / k
 
 the time in which the cone opens (``sweep``), that of fading, the turns that show it, and the way
 back to level with the gain k = HOLD w_a.
@@ -54,7 +54,7 @@ SLOWEST, SPEEDS = 0.05, 25  # chosen: of the greatest speed, the least; and how 
 OPENING = 2.75 * OPENS  # turns: int 1 - (1 - (1 + x) e^-x)^2 dx
 HOLD = 0.3  # of w_a, chosen: k
 LEVELLED = np.radians(0.5)  # chosen: level enough to let go
-SEEN = 1.5  # turns: two show the rest, and the first ends half a turn late in the mean
+CONFIRMING = 1.5  # turns: two show the rest, and the first ends half a turn late in the mean
 
 
 class Cone(NamedTuple):
@@ -109,7 +109,7 @@ def cone_at(testbed: Testbed, speed: float, least: float) -> Cone:
         return Cone(speed, angle, w, rate, np.inf)
     fades = max(float(np.log(offsets.height_sd(testbed) / NEAR)), 0.0)
     levels = float(np.log(max(angle / LEVELLED, 1.0))) / (HOLD * w)
-    turns = (OPENING + SEEN) * 2 * np.pi / speed
+    turns = (OPENING + CONFIRMING) * 2 * np.pi / speed
     return Cone(speed, angle, w, rate, turns + fades / rate + levels)
 
 

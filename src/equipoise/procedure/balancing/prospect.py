@@ -1,23 +1,11 @@
 """Whether a law can balance a testbed, and how long it should take, before anything is begun."""
 
-from dataclasses import dataclass
-
 from equipoise.control.laws.registry import LAWS
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
-from equipoise.model.law_card import LawCard, Need
+from equipoise.model.law_card import LawCard, Prospect
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balancing.run_law import lacking
-
-
-@dataclass(frozen=True, slots=True)
-class Prospect:
-    """What to expect of a law on a testbed."""
-
-    law: str
-    missing: tuple[Need, ...]  # devices
-    refused: str | None  # why it would not be stable; None: it would, or devices are missing
-    expected: float | None  # s; None: it is not begun, or cannot calculate it
 
 
 def prospect(card: LawCard, testbed: Testbed, target: Vector3) -> Prospect:
