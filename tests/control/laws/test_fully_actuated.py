@@ -253,7 +253,7 @@ def test_it_ends_level_with_masses_at_their_mean_of_a_turn():
     rows = closed_loop(bench, LAW.step, LAW.begin(bench.testbed, TARGET), 600.0, TILTED)
     (said,) = rows[-1].command.finished
     assert said.code == "masses_at_rest"
-    assert 0 < said.numbers["rest"] < NEAR
+    assert 0 < said.numbers["left"] < NEAR
     assert np.linalg.norm(total(rows, bench)[-1]) < NEAR
     assert tilts(rows)[-1] < np.radians(0.5)
     assert np.linalg.norm(rows[-1].rate) < np.radians(0.2)
@@ -268,7 +268,7 @@ def test_the_target_is_a_shift_at_the_end():
     bench = Bench(bed(), COM)
     observed = sample(started(bench, LEVEL, np.zeros(3)), bench, np.random.default_rng(0))
     over = replace(state, start=0.0, shift=-COM, over=one_reason(LawReason.MASSES_AT_REST,
-                   turns=8, rest=1e-7, height=4e-6))  # fmt: skip
+                   turns=8, left=1e-7, height=4e-6))  # fmt: skip
     command = step(over, observed, params)[1]
     assert command.finished
     np.testing.assert_allclose(command.shift, target - COM)
@@ -290,6 +290,10 @@ def test_it_gives_up_when_masses_do_not_come_to_rest():
     (said,) = step(begun, replace(observed, t=3.1 * params.cone.expected), params)[0].over
     assert said.code == "masses_not_at_rest"
     assert said.numbers["past"] == pytest.approx(3.1 * params.cone.expected)
+    nothing = replace(begun, turns=begun.turns._replace(rests=(np.inf, 1e-6)))
+    late = replace(observed, t=3.1 * params.cone.expected)
+    (said,) = step(nothing, late, params)[0].over
+    assert said.code == "torque_not_given"
 
 
 def test_it_says_at_its_start_how_long_it_should_take():

@@ -234,10 +234,12 @@ def why_over(state: State, past: float, params: Params) -> tuple[Reason, ...]:
         return why_still(state, past, params)
     rest, whole = state.turns.rest, state.turns.whole
     if whole >= OPENED and rest <= NEAR:
-        return one_reason(LawReason.MASSES_AT_REST, turns=whole, rest=rest, height=params.height)
+        return one_reason(LawReason.MASSES_AT_REST, turns=whole, left=rest, height=params.height)
     if past <= LONG * params.cone.expected:
         return ()
-    return one_reason(LawReason.MASSES_NOT_AT_REST, past=past, rest=rest)
+    if not np.isfinite(rest):
+        return one_reason(LawReason.TORQUE_NOT_GIVEN, past=past)
+    return one_reason(LawReason.MASSES_NOT_AT_REST, past=past, left=rest)
 
 
 def why_still(state: State, past: float, params: Params) -> tuple[Reason, ...]:

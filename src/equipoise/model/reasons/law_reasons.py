@@ -63,13 +63,18 @@ class LawReason(Code):
     MASSES_AT_REST = (
         "masses_at_rest",
         "Gravity has gone round the cone {turns:.0f} times. By the way of the masses in the last "
-        "two, {rest:um .2f} um are left; an inertia wrong by one sd leaves {height:um .2g} um "
+        "two, {left:um .2f} um are left; an inertia wrong by one sd leaves {height:um .2g} um "
         "along up.",
     )
     MASSES_NOT_AT_REST = (
         "masses_not_at_rest",
         "After {past:.0f} s, much longer than it should take, the masses still move: about "
-        "{rest:um .2g} um are left.",
+        "{left:um .2g} um are left.",
+    )
+    TORQUE_NOT_GIVEN = (
+        "torque_not_given",
+        "For {past:.0f} s, much longer than it should take, wheels or gyros have not given the "
+        "requested torque: what is left is not known.",
     )
     DIRECTION_NOT_SWEPT = (
         "direction_not_swept",
