@@ -163,6 +163,28 @@ def test_r24_gravity_drives_the_closed_loop_and_not_the_rate():
     assert not np.isclose(momentum @ printed + r @ moved / rate, falls)
 
 
+def test_r28_a_trajectory_about_the_vertical_leaves_the_null_vector():
+    """e' = -K e - m [g_b x] r, r' = Psi m [g_b x]^T e for ten minutes, whatever G_d is.
+
+    A turn about the vertical leaves g_b where it is in the body, and r along it too; round a cone
+    of 18 deg the same r fades.
+    """
+    gain, rate, dt = 0.15, (0.19 / WEIGHT) ** 2, 0.05
+
+    def left(angle, speed):
+        e, r = np.zeros(3), np.array([0.0, 0.0, -1e-4])
+        for k in range(12000):
+            turn = speed * k * dt
+            tilted = [np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), -np.cos(angle)]
+            pull = MASS * G * skew(np.array(tilted))
+            e = e + dt * (-gain * e - pull @ r)
+            r = r + dt * rate * pull.T @ e
+        return np.linalg.norm(r)
+
+    np.testing.assert_allclose(left(0.0, 0.17), 1e-4)
+    assert left(np.radians(18.0), 0.17) < 1e-6
+
+
 def test_r25_the_period_grows_as_the_platform_gets_balanced():
     """Half a swing from 3 deg, integrated: 2 pi sqrt(J / (m g h)), four times as long at h / 16."""
 

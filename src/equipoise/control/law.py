@@ -42,9 +42,11 @@ class Law(Generic[State, Params]):
     """A card, an initial state and a step.
 
     ``begin`` takes the testbed and the target of the centre of mass (m, body axes), and raises
-    InputError for a testbed on which the law would not be stable.
+    InputError for a testbed on which the law would not be stable. ``expected`` is how long a run
+    with these parameters should take (s), where a law can calculate it.
     """
 
     card: LawCard
     begin: Callable[[Testbed, Vector3], tuple[State, Params]]
     step: Callable[[State, Sample | Estimate, Params], tuple[State, Command]]
+    expected: Callable[[Params], float] | None = None

@@ -1,4 +1,4 @@
-"""The properties of a balancing law, and the devices that it needs."""
+"""The properties of a balancing law, the devices that it needs, and its prospect on a testbed."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -27,3 +27,13 @@ class LawCard:
     stable: str  # where it is stable: sampling, rate limits, size of the offset
     period: float  # s, between steps
     follows: bool = False  # it states what masses can follow when it has ended
+
+
+@dataclass(frozen=True, slots=True)
+class Prospect:
+    """What to expect of a law on a testbed."""
+
+    law: str
+    missing: tuple[Need, ...]  # devices
+    refused: str | None  # why it would not be stable; None: it would, or devices are missing
+    expected: float | None  # s; None: it is not begun, or cannot calculate it

@@ -55,6 +55,27 @@ def test_cards_are_json(equipoise, strict_json):
     assert [card["needs"] for card in one] == [list(PID.needs)]
 
 
+def test_laws_on_a_testbed_say_what_they_lack_and_how_long_they_should_take(equipoise, strict_json):
+    """The heavy table of gyros: minutes; the mock-up has neither gyro nor wheels."""
+    done = equipoise("laws", "--testbed", "tas2")
+    assert done.code == 0
+    line = next(row for row in done.out.splitlines() if row.startswith("fully_actuated"))
+    document = strict_json(equipoise("laws", "--testbed", "tas2", "--json").out)
+    by_law = {each["law"]: each for each in document["prospects"]}
+    assert list(by_law) == list(CARDS)
+    expected = by_law["fully_actuated"]["expected_s"]
+    assert 200 < expected < 600
+    assert f"should take {expected / 60:.1f} min" in line
+    assert by_law["planar_magnetic"]["missing"] == ["magnetorquers"]
+    one = reported_of(equipoise("laws", "fully_actuated", "--testbed", "sputnix"))
+    assert f"on {read_preset('sputnix').name} lacks {NEEDS['momentum']}, {NEEDS['gyro']}" in one
+    assert CARDS["fully_actuated"].idea in one
+
+
+def test_without_a_testbed_a_document_has_no_prospects(equipoise, strict_json):
+    assert "prospects" not in strict_json(equipoise("laws", "pid", "--json").out)
+
+
 @pytest.mark.parametrize("command", ["balance", "compare"])
 @pytest.mark.parametrize(("law", "lacks"), [("fully_actuated", "momentum"), ("pid", "gyro")])
 def test_a_testbed_without_the_devices_is_refused_in_one_sentence(equipoise, command, law, lacks):

@@ -417,3 +417,22 @@ def test_hands_begin_with_everything_off():
     assert opened_hands(platform(), np.zeros(0)).inputs == dict.fromkeys(
         ("wx", "wy", "wz", "mx", "my", "mz"), 0
     )
+
+
+# --- Time ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("expected", "warned"), [(61.0, True), (59.0, False)])
+def test_a_law_whose_time_will_not_do_says_so_before_it_begins(expected, warned):
+    """100 s less 40 s of proof: 60 s."""
+    law = replace(reported(), expected=lambda _params: expected)
+    steps = []
+    for step in run_law(SimulatedBench(platform(HANGING), 1), law, LawOptions(max_time=100.0)):
+        steps.append(step)
+        if DONE in codes(step):
+            break
+    assert (codes(steps[0]) == ["law_will_be_late"]) is warned
+    if warned:
+        assert steps[0].time == 0.0
+        assert steps[0].reasons[0].numbers == {"expected": 61.0, "available": 60.0}
+        assert "scripted should take 61 s on this testbed, and has 60 s" in steps[0].sentence

@@ -1,9 +1,16 @@
 """`equipoise laws`: how a platform can be balanced."""
 
-from equipoise.app.arguments.options import Json
+from equipoise.app.arguments.options import Json, Triple
 
 
-def laws(name: str | None = None, /, *, json: Json = False) -> int:
+def laws(
+    name: str | None = None,
+    /,
+    *,
+    testbed: str | None = None,
+    target_um: Triple = (0.0, 0.0, -100.0),
+    json: Json = False,
+) -> int:
     """List the laws of `equipoise balance --law`, or show the whole card of one.
 
     Errata that a source names are entries of docs/errata.md.
@@ -12,8 +19,30 @@ def laws(name: str | None = None, /, *, json: Json = False) -> int:
     ----------
     name
         Law to show. Left out: list them all.
+    testbed
+        Testbed file, or a preset's name: say whether each law can balance it, and how long that
+        should take, where the law can calculate it.
+    target_um
+        With --testbed: where the centre of mass is wanted, as `equipoise balance` has it.
     """
     from equipoise.app.api import catalogues
     from equipoise.app.commands.methods import print_cards
 
-    return print_cards(catalogues.laws(), name, json)
+    catalogue = catalogues.laws()
+    if testbed is None:
+        return print_cards(catalogue, name, json)
+    from equipoise.app.arguments.checks import vector
+    from equipoise.app.arguments.inputs import testbed_from
+    from equipoise.app.logbook.output import print_result
+    from equipoise.app.views.prospect_views import blocks, document
+    from equipoise.model.units import UM
+    from equipoise.procedure.balancing.catalogue import CARDS
+    from equipoise.procedure.balancing.prospect import prospect
+
+    if name is not None:
+        catalogue[name]  # or says which is meant
+    bed, target = testbed_from(testbed), vector("--target-um", target_um, UM)
+    cards = [card for card in CARDS.values() if name in (None, card.name)]
+    prospects = [prospect(card, bed, target) for card in cards]
+    print_result(document(cards, prospects), blocks(bed.name, cards, prospects), json)
+    return 0

@@ -35,6 +35,13 @@ LAWS = document(
         *fields("period_s=period", NUMBER),
         *fields("follows", FLAG),
     ))),
+    # On a testbed, where one is named.
+    *fields("prospects", many(shape(
+        *fields("law", TEXT),
+        *fields("missing", TEXTS),
+        *fields("refused", maybe(TEXT)),
+        *fields("expected_s=expected", maybe(NUMBER)),
+    )), optional=True),
 )  # fmt: skip
 
 # What is recommended, null where nothing is, and why.

@@ -34,7 +34,7 @@ def blocks(kind: CardKind, cards: Sequence[Card | LawCard]) -> Blocks:
 
 def document(kind: CardKind, cards: Sequence[Card | LawCard]) -> View:
     """Return cards as JSON."""
-    return SHOWN[kind].document.write({f"{kind}s": cards})
+    return SHOWN[kind].document.write({f"{kind}s": cards, "prospects": None})
 
 
 def as_text(value: str | tuple[str, ...]) -> str:

@@ -4,8 +4,8 @@ Gravity's direction n = g_B / g is to go round a cone that opens slowly about le
 
     n_d = -cos(a) up + sin(a) p,    p = cos(W t) e1 + sin(W t) e2,    a = A (1 - (1 + t/s) e^-t/s)
 
-so that nothing jumps at the start; s = 2 pi / W. With n' = n x w the rate for that, and for coming
-back when n has strayed, is
+so that nothing jumps at the start; s is OPENS turns of 2 pi / W. With n' = n x w the rate for that,
+and for coming back when n has strayed, is
 
     w_d  = n_d' x n_d + k n_d x n
     w_d' = n_d'' x n_d + k (n_d' x n + n_d x (n x w))
@@ -19,6 +19,8 @@ import numpy as np
 
 from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Matrix3, Vector3
+
+OPENS = 0.5  # turns, chosen: a cone that is nine tenths open after two
 
 
 class Sweep(NamedTuple):
@@ -40,11 +42,11 @@ class Wanted(NamedTuple):
 def cone(sweep: Sweep, t: float) -> tuple[Vector3, Vector3, Vector3]:
     """Return n_d, n_d' and n_d'' at time t (s) since the start."""
     e1, e2, up = sweep.axes.T
-    W, late = sweep.speed, np.exp(-t * sweep.speed / (2 * np.pi))
-    x = t * W / (2 * np.pi)
+    W, opens = sweep.speed, sweep.speed / (2 * np.pi * OPENS)
+    x, late = t * opens, np.exp(-t * opens)
     a = sweep.angle * (1 - (1 + x) * late)
-    a1 = sweep.angle * x * late * W / (2 * np.pi)
-    a2 = sweep.angle * (1 - x) * late * (W / (2 * np.pi)) ** 2
+    a1 = sweep.angle * x * late * opens
+    a2 = sweep.angle * (1 - x) * late * opens**2
     s, c = np.sin(a), np.cos(a)
     p = np.cos(W * t) * e1 + np.sin(W * t) * e2
     p1 = W * (np.cos(W * t) * e2 - np.sin(W * t) * e1)

@@ -19,6 +19,11 @@ class LawReason(Code):
         "Moved on by ({shift_x:um .2f}, {shift_y:um .2f}, {shift_z:um .2f}) um by what the jets "
         "spent.",
     )
+    CONE_BEGINS = (
+        "cone_begins",
+        "Gravity is led round a cone of {angle:deg .1f} deg, {turn:.0f} s a turn. An offset fades "
+        "in {fades:.0f} s; it should all take {expected:.0f} s.",
+    )
 
     # What it found
     CYCLE_MEASURED = (
@@ -56,9 +61,21 @@ class LawReason(Code):
         "all_attitudes_measured",
         "Measured at all attitudes and moved there.",
     )
-    ALL_DIRECTIONS_SWEPT = (
-        "all_directions_swept",
-        "Gravity has swept all directions, the least of them for {least:.3g} s.",
+    MASSES_AT_REST = (
+        "masses_at_rest",
+        "Gravity has gone round the cone {turns:.0f} times. By the way of the masses in the last "
+        "two, {left:um .2f} um are left; an inertia wrong by one sd leaves {height:um .2g} um "
+        "along up.",
+    )
+    MASSES_NOT_AT_REST = (
+        "masses_not_at_rest",
+        "After {past:.0f} s, much longer than it should take, the masses still move: about "
+        "{left:um .2g} um are left.",
+    )
+    TORQUE_NOT_GIVEN = (
+        "torque_not_given",
+        "For {past:.0f} s, much longer than it should take, wheels or gyros have not given the "
+        "requested torque: what is left is not known.",
     )
     DIRECTION_NOT_SWEPT = (
         "direction_not_swept",

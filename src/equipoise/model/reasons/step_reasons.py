@@ -84,4 +84,10 @@ class StepReason(Code):
     ROUNDS_USED_UP = "rounds_used_up", "The rounds are used up."
     TILTED = "tilt_limit_exceeded", "The platform tilts to its limit."
     NOTHING_REQUIRED = "no_verdict_required", "Nothing is required, so there is no verdict."
+    LAW_WILL_BE_LATE = (
+        "law_will_be_late",
+        "{0} should take {expected:.0f} s on this testbed, and has {available:.0f} s: it will "
+        "probably be cut off before the platform is balanced. More time (--max-time-s), stronger "
+        "devices, a firmer com_sd or another law would help.",
+    )
     LAW_RAN = "law_ran", "{0} for {duration:.0f} s of bench time:"  # why it ended follows

@@ -95,6 +95,7 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
     check(law.card, bench.testbed)
     state, params = law.begin(bench.testbed, options.target)
     end = bench.time + options.max_time - options.proof
+    yield from warned(law, params, bench.time, end)
     session, observed = first_sight(bench)
     why, began, following = (), bench.time, None
     while not why:
@@ -124,6 +125,16 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
         yield stop_step(bench)
     else:
         yield proof(bench, session, options)
+
+
+def warned(law: Law[Any, Any], params: Any, now: float, end: float) -> Iterator[Step]:
+    """Yield a step that says so if a law should take longer than until ``end`` (s)."""
+    expected = None if law.expected is None else law.expected(params)
+    if expected is not None and expected > end - now:
+        late = one_reason(
+            StepReason.LAW_WILL_BE_LATE, law.card.name, expected=expected, available=end - now
+        )
+        yield Step("control", now, late)
 
 
 def reason_to_stop(bench: Bench, recording: Recording, end: float) -> tuple[Reason, ...]:
