@@ -88,7 +88,9 @@ TABLE_2: dict[Family, Printed] = {
     "whole record": Printed("maximum likelihood", NOT_THERE),
 }
 TABLE_3: dict[Printed, tuple[str, ...]] = {
-    Printed("manual [10,19,26]", "no devices; an expert, and hours", "10 000 uN m [19,26]"): (),
+    Printed("manual [10,19,26]", "no devices; an expert, and hours", "10 000 uN m [19,26]"): (
+        "by_hand",
+    ),
     Printed(
         "underactuated [7,9]",
         "faster than by hand, masses alone; two steps, the height is open to mismodelling",

@@ -37,6 +37,9 @@ def reproduce(
     ivanov2021: records and their fits, the tracker along a move, the law with a move every 25 s and
     our own, with a drift that nobody declared; Figs. 4 to 15.
 
+    dasilva2021: Fig. 3, and Tables 2 and 3 measured: every method and law, and a person, on
+    platforms of the preset reference-table.
+
     lee: two slews by control moment gyros, a large and a small one; the averaged integral as
     printed and corrected, and the trajectory fit, with the least sd that the data allow; Figs. 3 to
     18.
@@ -105,6 +108,28 @@ def _lee(requested: Requested) -> "Output":
     return output_of(lee_run(read_preset("kau"), requested.seeds[0], busy))
 
 
+def _dasilva(requested: Requested) -> "Output":
+    """Return the review's figure and tables."""
+    from equipoise.app.runs.comparison import chosen_methods, run_methods
+    from equipoise.app.views.study.review_run_views import output_of
+    from equipoise.estimation.method_contract import Options
+    from equipoise.io.testbed.presets import read_preset
+    from equipoise.study.method_record import Scene
+    from equipoise.study.papers import review_run
+    from equipoise.study.papers.null_vector import null_vector
+
+    bed, seeds = read_preset("reference-table"), requested.seeds
+    with busy("looking for the null vector"):
+        null = null_vector(read_preset("tas2"))
+    moves = ((review_run.MOVED_AT, review_run.MOVE),)
+    scene = Scene(bed, review_run.RECORD, moves, Options())
+    methods = run_methods(scene, chosen_methods(()), seeds, requested.by("estimating"))
+    laws = review_run.laws_run(bed, seeds, requested.by("balancing"))
+    weights = read_preset("weights-by-hand")
+    by_hand = review_run.by_hand(bed, weights, seeds, requested.by("balancing by hand"))
+    return output_of(review_run.ReviewRun(bed, seeds, null, methods, laws, by_hand))
+
+
 @dataclass(frozen=True, slots=True)
 class Paper:
     """A paper that can be reproduced."""
@@ -115,6 +140,7 @@ class Paper:
 
 PAPERS = {
     "ivanov2021": Paper("Ivanov et al. 2021: identification and balancing by a camera", _ivanov),
+    "dasilva2021": Paper("da Silva et al. 2021: the null vector, methods and laws", _dasilva),
     "lee": Paper("Lee et al.: the integration method on two slews by gyros", _lee),
 }
 

@@ -19,6 +19,7 @@ from equipoise.app.views.study.method_comparison import (
 from equipoise.app.views.study.review_views import laws_table as table_3
 from equipoise.app.views.study.review_views import methods_table as table_2
 from equipoise.model.units import UN_M
+from equipoise.study.compare_laws import Comparison
 from equipoise.study.compare_methods import MethodComparison
 from equipoise.study.recommend import Advice, advised_law, advised_method, least_share
 
@@ -74,11 +75,17 @@ def pictures(done: Compared) -> Iterator[Picture]:
     """Yield the figures."""
     if done.methods is not None:
         yield from method_pictures(done.methods)
-    if done.laws is not None and done.laws.laws:
-        laws = sorted(done.laws.laws, key=lambda law: law.left.most)
+    if done.laws is not None:
+        yield from law_pictures(done.laws)
+
+
+def law_pictures(found: Comparison) -> Iterator[Picture]:
+    """Yield the torque that laws leave, if any ran."""
+    if found.laws:
+        laws = sorted(found.laws, key=lambda law: law.left.most)
         left = [compared_torque.Left(law.law, law.left.median / UN_M, law.left.most / UN_M)
                 for law in laws]  # fmt: skip
-        drawn = compared_torque.draw(left, done.laws.required / UN_M)
+        drawn = compared_torque.draw(left, found.required / UN_M)
         yield Picture("laws_torque", compared_torque.CAPTION, drawn)
 
 
