@@ -6,7 +6,8 @@ A device that counts no total (a dipole) is integrated too. An input and its eff
 each other, by the lag and by ``DELAY`` at most. So E and R are compared when what was given has
 gone a way of ``LATE`` times what may be late; then |R - E| must be within half of that way. What is
 too little to tell from noise within ``LONGEST`` is not compared. A device that goes by itself is
-found by a way that a whole second of its greatest input would take.
+found by a way that a whole second of its greatest input would take. What this cannot see is a
+device that stands still while its inputs cancel each other, as pulses to and fro do.
 """
 
 from dataclasses import dataclass
