@@ -71,18 +71,20 @@ class FaultyDevices:
 
     def __init__(self, device):
         self._device = device
-        self.done = {}
+        self.done, self.given = {}, {}  # by name; what each really got last
 
     def __getattr__(self, name):
         return getattr(self._device, name)
 
     def run(self, t):
         said, given = self._device.run(t)
-        return said, [
+        really = [
             replace(each, value=self.done.get(each.device, 1.0) * each.value)
             for each in given
             if self.done.get(each.device, 1.0)
         ]
+        self.given |= {each.device: each.value for each in really}
+        return said, really
 
 
 class LockstepClock:
@@ -187,8 +189,10 @@ class Lab:
         return self.emulated.boards[0]
 
     @property
-    def electronics(self):
-        return self.emulated.actuators[0]
+    def at_rest(self):
+        """Say whether no device is given anything."""
+        stations = self.emulated.actuators
+        return not any(value for each in stations for value in each.device.given.values())
 
     @property
     def imu(self):
@@ -198,7 +202,9 @@ class Lab:
         port = open_port(address)
         if not address.address.startswith("ws:"):
             return port
-        (wire,) = (each.wire for each in self.emulated.stations if each.wire.address == address.address)
+        (wire,) = (
+            each.wire for each in self.emulated.stations if each.wire.address == address.address
+        )
         return ThreadedPort(port, wire)
 
     def wait(self, seconds):

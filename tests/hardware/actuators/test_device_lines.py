@@ -144,7 +144,7 @@ def test_a_device_that_rests_unasked_is_at_fault(mode, code):
     driver.due(0.1)
     driver.feed(line('{"t_ms":1,"a":1,"m":1,"f":0,"y":[0]}'), 0.12)
     assert driver.state.activity == "working"
-    driver.feed(line('{"t_ms":2,"a":1,"m":%d,"f":0,"y":[0]}' % mode), 0.14)
+    driver.feed(line(f'{{"t_ms":2,"a":1,"m":{mode},"f":0,"y":[0]}}'), 0.14)
     assert driver.state.fault.code is code
     assert b'"halt"' in driver.due(0.16)
 
@@ -154,7 +154,7 @@ def test_an_order_that_is_refused_is_a_fault_with_its_cause(code):
     driver = connected(driver_of())
     driver.drive({"rw_x": 0.001}, 0.1)
     driver.due(0.1)
-    driver.feed(line('{"err":%d,"at":1}' % code), 0.12)
+    driver.feed(line(f'{{"err":{code},"at":1}}'), 0.12)
     assert driver.state.fault.code is ActuatorFault.REFUSED
     assert "order 1" in driver.state.sentence
 
@@ -177,7 +177,7 @@ def test_a_device_that_does_not_rest_is_a_fault_and_is_halted_again_and_again():
     for k in range(100):
         t = 0.14 + 0.02 * k
         said += driver.due(t)
-        driver.feed(line('{"t_ms":%d,"a":1,"m":1,"f":0,"y":[0]}' % (10 + k)), t)
+        driver.feed(line(f'{{"t_ms":{10 + k},"a":1,"m":1,"f":0,"y":[0]}}'), t)
     assert driver.state.fault.code is ActuatorFault.NOT_STOPPED
     assert said.count(b"halt") == pytest.approx(20, abs=2)
 

@@ -206,7 +206,8 @@ class DeviceLines(ActuatorDriver):
             self._fault(ActuatorFault.REFUSED, f"order {refusal.number}", REFUSALS[refusal.code])
 
     def _reported(self, report: Report, t: float) -> list[Counted]:
-        self._alive = self._clock.now
+        if report.stamp != self._stamp:  # a device that hangs may say the same for ever
+            self._alive = self._clock.now
         if report.stamp < self._stamp:
             self.begun += 1
         self._stamp = report.stamp
@@ -237,7 +238,7 @@ class DeviceLines(ActuatorDriver):
     def _begin(self) -> None:
         self._orders.clear()
         self.state = ActuatorState(Activity.CONNECTING)
-        self._next, self._sent, self._stamp = -1, float("-inf"), 0.0
+        self._next, self._sent, self._stamp = -1, float("-inf"), -1.0
         self._alive = self._since = self._halted = self._clock.now
         self._armed = self._halting = False
         self._received, self._spinning = "", tuple[str, ...]()
