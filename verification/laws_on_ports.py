@@ -7,8 +7,9 @@ of them runs through ports as it runs in simulation: to its verdict, with nothin
 driver or an interlock.
 
 Faults happen to the electronics of one kind of device, at a random moment while a law drives. Each
-run ends well in one of two ways: the law goes on to its verdict, or everything is stopped with the
-reason that belongs to the fault. Either way no mass moves and no device is driven a second later.
+run ends well in one of two ways: the law goes on until a person stops it, or everything is stopped
+with the reason that belongs to the fault. Either way no mass moves and no device is driven a second
+later.
 """
 
 from collections import Counter
@@ -24,7 +25,7 @@ from equipoise.model.hardware import ActuatorUnit
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
-from equipoise.model.verdict import Verdict, VerdictOutcome
+from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import CARDS, balanced_by
 from equipoise.procedure.balancing.hold import FIRST_MOVES
@@ -43,12 +44,16 @@ DRIVEN = {  # a law: the electronics that it needs from its first seconds on
     "impulse_feedback": "valves",
     "planar_magnetic": "coils",
 }
-AT_WORK, PROOF = 15.0, 40.0  # s, of a law that is struck: it drives from its first second on
-LATEST = 10.0  # s after the platform is let go
+LATEST = 10.0  # s after the platform is let go, chosen: these laws drive from their first second on
+OBSERVED = 8.0  # s after a fault, chosen: then a person ends the run, if nothing else has
 SETTLED = 1.0  # s, within which all rests
 AFTER = 1.0  # s in which nothing moves after that
 LOST = ("actuator wheels", "actuator coils", "actuator valves", Interlock.DEVICE_FAULT)
 ASTRAY = (*LOST, Interlock.NOT_FOLLOWING, Interlock.DEVICE_LIMIT)
+
+
+class Ended(Exception):
+    """A person ends the run."""
 
 
 StrikeAt = Callable[[Lab, str, np.random.Generator], None]  # at which electronics
@@ -236,21 +241,33 @@ def struck(seed: int) -> Struck:
     with lab(bed_for(law), seed) as found:
         when = found.emulated.time + float(rng.uniform(1.0, LATEST))
         found.clock.at(when, lambda: fault.strike(found, unit, rng))
-        work = balanced_by(law, found.bench, options(), AT_WORK + PROOF)
-        *_, last = until_stopped(found.bench, work)
+        found.clock.at(when + OBSERVED, end)
+        verdict, sentence = worked(found, law)
         found.wait(SETTLED)
         at = found.emulated.platform.displacements.copy()
         rested = found.at_rest
         found.wait(AFTER)
         rests = rested and found.at_rest
         stands = bool(np.all(found.emulated.platform.displacements == at))
-    verdict = last.verdict
-    assert verdict is not None
-    causes = {verdict.code, *verdict.reasons[0].parameters}
-    halted = verdict.outcome is VerdictOutcome.HALTED
-    right = not halted or bool(causes & {*fault.causes, *TILT})
-    ending = "stopped" if halted else "went on"
-    return Struck(seed, f"{fault.name}, {law}", ending, right and rests and stands, last.sentence)
+    causes = set() if verdict is None else {verdict.code, *verdict.reasons[0].parameters}
+    right = verdict is None or bool(causes & {*fault.causes, *TILT})
+    ending = "went on" if verdict is None else "stopped"
+    return Struck(seed, f"{fault.name}, {law}", ending, right and rests and stands, sentence)
+
+
+def worked(found: Lab, law: str) -> tuple[Verdict | None, str]:
+    """Return the verdict of a law that was stopped, with its sentence; None: a person ended it."""
+    try:
+        *_, last = until_stopped(found.bench, balanced_by(law, found.bench, options(), LONGEST))
+    except Ended:
+        found.bench.stop()
+        return None, ""
+    return last.verdict, last.sentence
+
+
+def end() -> None:
+    """End the run, as a person does."""
+    raise Ended
 
 
 def law_rows(runs: Sequence[LawOnPorts]) -> list[Row]:
@@ -303,6 +320,7 @@ def measure_faults(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     claim = (
         f"Laws {', '.join(DRIVEN)} on the preset reference-table through ports; one of "
         f"{len(FAULTS)} faults happens to the electronics of wheels, coils or jets at a random "
-        f"moment of the first {LATEST:g} s. {len(seeds)} seeds."
+        f"moment of the first {LATEST:g} s; {OBSERVED:g} s later a person ends what goes on. "
+        f"{len(seeds)} seeds."
     )
     return Result("faulty_devices", claim, rows, (*notes, *odd))
