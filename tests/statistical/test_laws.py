@@ -1,10 +1,25 @@
-"""Balancing laws on the reference table: `verification/laws.py` with a seed and two laws."""
+"""Balancing laws on the reference table, simulated and through ports, with few seeds."""
 
 from tests.support import thorough
-from verification import laws
+from verification import laws, laws_on_ports
 
 
 @thorough.whole
 def test_the_best_procedure_leaves_what_is_wanted():
     some = ("momentum_buildup", "impulse_feedback")
     assert laws.measure(range(1), laws=some).missed == ()
+
+
+def test_faults_of_what_a_law_drives_end_in_recovery_or_at_rest_with_the_right_reason():
+    """One run of some of the faults, with other moments and starts than `make verify` has."""
+    step = thorough.count(1, 5)
+    seeds = range(1024, 1024 + len(laws_on_ports.FAULTS), step)
+    assert laws_on_ports.measure_faults(seeds).missed == ()
+
+
+@thorough.whole
+def test_a_law_that_drives_wheels_runs_through_ports_to_its_verdict():
+    run = laws_on_ports.run_on_ports(("momentum_buildup", 1))
+    assert run.verdict.passed
+    assert not run.stopped
+    assert not run.passed_falsely

@@ -79,9 +79,7 @@ class FaultyDevices:
     def run(self, t):
         said, given = self._device.run(t)
         really = [
-            replace(each, value=self.done.get(each.device, 1.0) * each.value)
-            for each in given
-            if self.done.get(each.device, 1.0)
+            replace(each, value=self.done.get(each.device, 1.0) * each.value) for each in given
         ]
         self.given |= {each.device: each.value for each in really}
         return said, really
