@@ -241,8 +241,10 @@ def struck(seed: int) -> Struck:
     with lab(bed_for(law), seed) as found:
         when = found.emulated.time + float(rng.uniform(1.0, LATEST))
         found.clock.at(when, lambda: fault.strike(found, unit, rng))
-        found.clock.at(when + OBSERVED, end)
+        going = [law]
+        found.clock.at(when + OBSERVED, lambda: end(going))
         verdict, sentence = worked(found, law)
+        going.clear()
         found.wait(SETTLED)
         at = found.emulated.platform.displacements.copy()
         rested = found.at_rest
@@ -265,9 +267,10 @@ def worked(found: Lab, law: str) -> tuple[Verdict | None, str]:
     return last.verdict, last.sentence
 
 
-def end() -> None:
-    """End the run, as a person does."""
-    raise Ended
+def end(going: Sequence[str]) -> None:
+    """End what goes on, as a person does."""
+    if going:
+        raise Ended
 
 
 def law_rows(runs: Sequence[LawOnPorts]) -> list[Row]:
