@@ -449,7 +449,7 @@ HARDWARE = _of(
      "hardware/actuators/test_actuators.py"),
     ("actuators/device_lines.py", "t - self._sent >= AGAIN else", "t - self._sent >= 9 else",
      "hardware/actuators/test_actuators.py"),
-    ("emulated/device_lines.py", "value * (t - self._seen_at)", "value",
+    ("emulated/device_lines.py", "value * (t - self._counted_at)", "value",
      "hardware/emulated/test_device_lines_firmware.py"),
     ("bench/interlocks.py", "if since > limits.stale:", "if since > 10 * limits.stale:",
      "hardware/bench/test_interlocks.py"),

@@ -208,11 +208,11 @@ def test_the_conversation_in_words():
         "who are you?", "what is your output 0?", "order 1: begin to work",
         "order 2: inputs 0.001", "go on", "rest",
     ]  # fmt: skip
-    heard = [each for text in ANSWERED for each in words.received(text.encode() + b"\n")]
-    assert heard[:3] == [
+    answers = [each for text in ANSWERED for each in words.received(text.encode() + b"\n")]
+    assert answers[:3] == [
         "rests since its start, has taken order 0", "wheels, 1 outputs, version 1",
         "output 0 is wheel rw_x, 0.005 N m",
     ]  # fmt: skip
-    assert heard[-1] == "rests, has taken order 2"
+    assert answers[-1] == "rests, has taken order 2"
     assert words.received(b"noise\n") == ["something that is not understood"]
     assert words.received(line('{"err":4,"at":9}')) == ["refused: an input is beyond its limit"]

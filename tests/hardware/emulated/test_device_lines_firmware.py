@@ -126,7 +126,7 @@ def test_it_counts_what_the_platform_did_and_a_jets_pulses_in_all():
     assert reports[-1]["y"] == pytest.approx([7.85, 0.2, 0.004])
 
 
-def test_while_it_starts_it_neither_hears_nor_says_anything():
+def test_while_it_starts_it_neither_takes_nor_says_anything():
     device = firmware()
     answer(device, '{"arm":1}')
     device.press_reset(0.1)

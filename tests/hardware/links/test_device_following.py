@@ -60,7 +60,7 @@ def test_a_wheel_that_turns_the_other_way_or_by_less_than_half_is_found():
     assert run(begun(WHEEL, 0.002), 20.0, lambda t, _: 11.0 * t) is None
 
 
-def test_a_little_torque_needs_longer_to_be_told_from_noise():
+def test_a_little_torque_needs_longer_to_exceed_the_noise():
     """5e-6 N m: 0.05 rad/s^2; twelve sd of noise are 0.6 rad/s, so 12 s and too long.
 
     Twice as much needs 6 s.

@@ -38,7 +38,7 @@ from equipoise.model.reasons.actuator_faults import ActuatorFault, ActuatorRemar
 from equipoise.model.reasons.reason import Number, Reason
 
 BEGINNING = 3.0  # s, attended, chosen: a microcontroller begins anew when its port is opened
-ASKED = 0.5  # s, chosen: between two questions of the same, who it is and what it has
+REPEATED = 0.5  # s, chosen: between two questions of the same, who it is and what it has
 STALE = 0.5  # s, attended, chosen: without a report, or an order taken, while it works
 SHOWN = 60  # bytes, chosen: of the last line, for people
 HELLO, HALT, BEAT = checked(f'{{"hello":{VERSION}}}'), checked('{"halt":1}'), checked('{"beat":1}')
@@ -134,7 +134,7 @@ class DeviceLines(ActuatorDriver):
     def _said(self, t: float) -> bytes:
         activity = self.state.activity
         if activity is Activity.CONNECTING:
-            return self._asked(t)
+            return self._question(t)
         if activity is not Activity.FAULT:
             self._check_patience()
         if self._halting:
@@ -143,7 +143,7 @@ class DeviceLines(ActuatorDriver):
             return b""
         return self._orders.due(t) or (BEAT if self._armed and t - self._sent >= AGAIN else b"")
 
-    def _asked(self, t: float) -> bytes:
+    def _question(self, t: float) -> bytes:
         """Return the next question: who it is, then what each of its outputs is."""
         waited = self._clock.now - self._since
         if waited > BEGINNING:
@@ -152,8 +152,8 @@ class DeviceLines(ActuatorDriver):
             else:
                 self._fault(ActuatorFault.NOTHING_RECEIVED, waited=waited)
             return b""
-        question = HELLO if self._next < 0 else checked(f'{{"describe":{self._next}}}')
-        return self._once_in(ASKED, question, t)
+        line = HELLO if self._next < 0 else checked(f'{{"describe":{self._next}}}')
+        return self._once_in(REPEATED, line, t)
 
     def _once_in(self, seconds: float, line: bytes, t: float) -> bytes:
         return line if t - self._sent >= seconds else b""

@@ -42,7 +42,7 @@ class EmulatedDeviceLines:
         by_name = {device.name: device for device in devices}
         self._name, self._devices = unit.name, [by_name[name] for name in unit.drives]
         self._observed = [at_start(device) for device in self._devices]  # as a recording has it
-        self._seen_at = 0.0  # s
+        self._counted_at = 0.0  # s
         self.powered, self.fault = True, 0
         self._begun: list[Given] = []
         self._reported = 0.0  # s, when it last was
@@ -179,10 +179,10 @@ class EmulatedDeviceLines:
     def _count(self, t: float, row: Floats) -> None:
         for k, (device, value) in enumerate(zip(self._devices, row.tolist(), strict=True)):
             if TRAITS[type(device)].pulsed:  # a recording has the mean since the row before
-                self._observed[k] += value * (t - self._seen_at)
+                self._observed[k] += value * (t - self._counted_at)
             else:
                 self._observed[k] = value
-        self._seen_at = t
+        self._counted_at = t
 
     def _report(self, t: float) -> None:
         if not self._awake(t) or t - self._reported < PERIOD - 0.1 * MS:
