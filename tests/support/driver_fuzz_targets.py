@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from equipoise.hardware.actuators.registry import ACTUATORS
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.camera.raw_picture import RawPicture, packed, unpacked
 from equipoise.hardware.emulated.registry import SENSORS
@@ -15,6 +16,8 @@ from equipoise.hardware.transport.mjpeg_stream import Parts
 from equipoise.model.errors import BenchStopped
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.units import MM
+from tests.support.actuator_wire import BED as DRIVEN
+from tests.support.actuator_wire import ActuatorWire, unit_of
 from tests.support.board_wire import BED, Wire, board_of
 from tests.support.fuzz_target import Target
 from tests.support.sensor_units import PICTURES, unit
@@ -103,6 +106,42 @@ def answered(kind: str) -> Callable[[bytes], None]:
     return take
 
 
+def driven(kind: str) -> bytes:
+    """Return all that electronics say from their start through a drive and a halt."""
+    wire, said = ActuatorWire(kind), b""
+    feed = wire.driver.feed
+
+    def kept(data: bytes, t: float) -> object:
+        nonlocal said
+        said += data
+        return feed(data, t)
+
+    wire.driver.feed = kept
+    wire.working({"rw_x": 0.001, "jp_z": 0.002})
+    wire.driver.rest(wire.t)
+    wire.run(0.2)
+    return said
+
+
+def commanded(kind: str) -> Callable[[bytes], None]:
+    """Return what a driver of devices does with bytes, while it is driven and halted."""
+
+    def take(content: bytes) -> None:
+        driver = ACTUATORS[kind](unit_of(kind), DRIVEN.devices)
+        driver.opened(0.0)
+        orders = {8: "drive", 20: "rest", 26: "drive", 40: "begin"}
+        for k in range(len(content) // LUMP + 1):
+            t = k * TURN
+            for counted in driver.feed(content[LUMP * k : LUMP * k + LUMP], t):
+                assert np.all(np.isfinite(list(counted.values.values())))
+            with contextlib.suppress(BenchStopped):
+                words = ({"rw_x": 0.001}, t) if orders.get(k) == "drive" else (t,)
+                getattr(driver, orders.get(k, "due"))(*words)
+            driver.due(t)
+
+    return take
+
+
 def cut_separation(content: bytes) -> None:
     """A stream of pictures as a server sends it."""
     parts = Parts()
@@ -142,6 +181,7 @@ TARGETS = (
         for name in DRIVERS
     ),
     *(Target(f"driver {kind}", made(conversation, kind), answered(kind)) for kind in BOARDS),
+    *(Target(f"driver {kind}", made(driven, kind), commanded(kind)) for kind in ACTUATORS),
     Target("stream of pictures", stream, cut_separation),
     Target("raw picture", picture, pictured),
 )

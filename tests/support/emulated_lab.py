@@ -33,7 +33,9 @@ def over_tcp(bed):
         )
 
     boards, sensors = bridged(hardware.boards, "board"), bridged(hardware.sensors, "unit")
-    return replace(bed, hardware=replace(hardware, boards=boards, sensors=sensors))
+    actuators = bridged(hardware.actuators, "actuator")
+    whole = replace(hardware, boards=boards, sensors=sensors, actuators=actuators)
+    return replace(bed, hardware=whole)
 
 
 class FaultyMotors:
@@ -59,6 +61,28 @@ class FaultyMotors:
         at += self.done.get(leg.mass, 1.0) * (leg.displacement - reported)
         self._reported[leg.mass], self._at[leg.mass] = leg.displacement, at
         return replace(leg, displacement=at)
+
+
+class FaultyDevices:
+    """Stands between emulated electronics and the platform: what a device does, not its order.
+
+    ``done`` is the share of each input that a device named in it really gets: 0 of a stuck wheel.
+    """
+
+    def __init__(self, device):
+        self._device = device
+        self.done, self.given = {}, {}  # by name; what each really got last
+
+    def __getattr__(self, name):
+        return getattr(self._device, name)
+
+    def run(self, t):
+        said, given = self._device.run(t)
+        really = [
+            replace(each, value=self.done.get(each.device, 1.0) * each.value) for each in given
+        ]
+        self.given |= {each.device: each.value for each in really}
+        return said, really
 
 
 class LockstepClock:
@@ -148,6 +172,10 @@ class Lab:
             Station(JumpingClock(each.device), FaultyWire(each.wire, seed))
             for each in self.emulated.sensors
         ]
+        self.emulated.actuators[:] = [
+            Station(FaultyDevices(each.device), FaultyWire(each.wire, seed))
+            for each in self.emulated.actuators
+        ]
         self.keeper = keeper_of(self.emulated.testbed(), self._open)
         self.clock = PlannedClock(self.emulated, tick)
         self.bench = RealBench(self.keeper, self.clock)
@@ -159,6 +187,12 @@ class Lab:
         return self.emulated.boards[0]
 
     @property
+    def at_rest(self):
+        """Say whether no device is given anything."""
+        stations = self.emulated.actuators
+        return not any(value for each in stations for value in each.device.given.values())
+
+    @property
     def imu(self):
         return self.emulated.sensors[0]
 
@@ -166,8 +200,9 @@ class Lab:
         port = open_port(address)
         if not address.address.startswith("ws:"):
             return port
-        stations = (*self.emulated.boards, *self.emulated.sensors)
-        (wire,) = (each.wire for each in stations if each.wire.address == address.address)
+        (wire,) = (
+            each.wire for each in self.emulated.stations if each.wire.address == address.address
+        )
         return ThreadedPort(port, wire)
 
     def wait(self, seconds):

@@ -13,11 +13,13 @@ class FaultyWire:
         self._wire, self._rng = wire, np.random.default_rng(seed)
         self.address = wire.address
         self.spoil = None
+        self.deaf = False  # what is sent to the device does not arrive
         self.last = b""
         self.sent = 0  # messages
 
     def receive(self):
-        return b"" if self._wire is None else self._wire.receive()
+        data = b"" if self._wire is None else self._wire.receive()
+        return b"" if self.deaf else data
 
     def unplug(self):
         self._wire.close()
@@ -66,6 +68,19 @@ def half(data, _wire):
 def repeated(_data, wire):
     """Say the same for ever: a device that hangs."""
     return wire.last
+
+
+class Late:
+    """Holds what is said back for so long (s), by a clock."""
+
+    def __init__(self, clock, by):
+        self._clock, self._by, self._held = clock, by, []
+
+    def __call__(self, data, _wire):
+        self._held.append((self._clock.now + self._by, data))
+        due = [data for t, data in self._held if t <= self._clock.now]
+        self._held = [each for each in self._held if each[0] > self._clock.now]
+        return b"".join(due)
 
 
 def covered(data, _wire):

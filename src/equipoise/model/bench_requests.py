@@ -8,11 +8,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from equipoise.model.arrays import Series1
-from equipoise.model.devices import Device
-from equipoise.model.errors import InputError, MoveRefused, nearest
+from equipoise.model.devices import TRAITS, Device, greatest_input, least_input
+from equipoise.model.errors import DriveRefused, InputError, MoveRefused, nearest
 from equipoise.model.testbed import SlidingMass
 
 HAIR = 1e-9  # m, chosen: a target on the end of the rail may be rounded beyond it by so much
+ROUNDING = 1e-9  # relative, chosen: an input on the limit may be rounded beyond it by so much
 
 
 def check_duration(duration: float) -> None:
@@ -22,9 +23,25 @@ def check_duration(duration: float) -> None:
 
 
 def checked_inputs(devices: Sequence[Device], inputs: Mapping[str, float]) -> dict[int, float]:
-    """Return what devices are given, by index; InputError for the first bad name or number."""
+    """Return what devices are given, by index.
+
+    Raises InputError for the first bad name or number, DriveRefused beyond a device's limit.
+    """
     names = [device.name for device in devices]
-    return _by_index("drive", "device", names, inputs, "a finite number")
+    found = _by_index("drive", "device", names, inputs, "a finite number")
+    for i, requested in found.items():
+        _check_input(devices[i], requested)
+    return found
+
+
+def _check_input(device: Device, requested: float) -> None:
+    """Raise DriveRefused for an input that is too great, or for a pulse that is too short."""
+    unit = TRAITS[type(device)].input_unit
+    most, least = greatest_input(device), least_input(device)
+    if abs(requested) > most * (1 + ROUNDING):
+        raise DriveRefused(device.name, requested, most, unit)
+    if requested and abs(requested) < least * (1 - ROUNDING):
+        raise DriveRefused(device.name, requested, least, f"{unit} at least")
 
 
 def checked_targets(

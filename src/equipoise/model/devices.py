@@ -148,6 +148,26 @@ REPORTED: dict[type[Device], Reported] = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class Traits:
+    """What a kind of device is driven by, and what its electronics count of it."""
+
+    input_unit: str
+    counted_unit: str
+    limit: str = ""  # field with the greatest input; empty: there is none
+    total: bool = False  # what is counted is the input's integral over time, or the sum of pulses
+    pulsed: bool = False  # an input is given once, and is over by itself; a recording has its mean
+
+
+TRAITS: dict[type[Device], Traits] = {
+    ReactionWheel: Traits("N m", "rad/s", "max_torque", total=True),
+    ControlMomentGyro: Traits("rad/s", "rad", "max_rate", total=True),
+    Magnetorquer: Traits("A m^2", "A m^2", "max_dipole"),
+    CoilPair: Traits("T", "T", "max_field"),
+    JetPair: Traits("N m s", "N m s", total=True, pulsed=True),
+}
+
+
 def recorded_name(device: Device) -> str:
     """Return what a recording calls a device, such as 'wheel:x'."""
     return f"{REPORTED[type(device)]}:{device.name}"
@@ -160,3 +180,33 @@ def at_start(device: Device) -> float:
     if isinstance(device, CoilPair):
         return device.field
     return device.angle if isinstance(device, ControlMomentGyro) else 0.0
+
+
+def greatest_input(device: Device) -> float:
+    """Return the most that a device takes, in the unit of its input; infinite where all is."""
+    limit = TRAITS[type(device)].limit
+    return float(getattr(device, limit)) if limit else float("inf")
+
+
+def least_input(device: Device) -> float:
+    """Return the least that a device takes beside nothing, in the unit of its input."""
+    return device.torque * device.min_pulse if isinstance(device, JetPair) else 0.0
+
+
+def greatest_count(device: Device) -> float:
+    """Return the most that can be counted of it: a speed, or what it is driven to at most."""
+    if isinstance(device, ReactionWheel):
+        return device.max_speed
+    return float("inf") if TRAITS[type(device)].total else greatest_input(device)
+
+
+def counted_gain(device: Device) -> float:
+    """Return what is counted for each unit of input: of a wheel rad/s for N m s, else one."""
+    return 1.0 / device.inertia if isinstance(device, ReactionWheel) else 1.0
+
+
+def counted_noise(device: Device) -> float:
+    """Return one sd of what is counted."""
+    if isinstance(device, ReactionWheel):
+        return device.speed_noise
+    return device.angle_noise if isinstance(device, ControlMomentGyro) else 0.0

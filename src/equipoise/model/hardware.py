@@ -1,4 +1,4 @@
-"""What is connected to a bench: motor boards, sensors, and when they must stop.
+"""What is connected to a bench: motor boards, sensors, actuators, and when they must stop.
 
 A port's address says how a device is reached:
 
@@ -79,6 +79,16 @@ class SensorUnit:
 
 
 @dataclass(frozen=True, slots=True)
+class ActuatorUnit:
+    """Electronics that drive wheels, gyros, coils or jets."""
+
+    name: str
+    driver: str  # of ``hardware.actuators.registry``
+    port: Port
+    drives: tuple[str, ...]  # names of the testbed's devices, in the order of its outputs
+
+
+@dataclass(frozen=True, slots=True)
 class SafetyLimits:
     """Beyond any of these every motor is stopped; tilt and travel are the testbed's own."""
 
@@ -94,3 +104,9 @@ class Hardware:
     boards: tuple[MotorBoard, ...]
     sensors: tuple[SensorUnit, ...]
     limits: SafetyLimits
+    actuators: tuple[ActuatorUnit, ...] = ()
+
+    @property
+    def units(self) -> tuple[MotorBoard | SensorUnit | ActuatorUnit, ...]:
+        """Return whatever has a port."""
+        return (*self.boards, *self.sensors, *self.actuators)

@@ -80,3 +80,29 @@ def test_rows_that_arrive_unevenly_are_no_fault_of_a_sensor_without_stamps():
     ]
     assert [each.good for each in scattered] == [True]
     assert "stamped as they arrive" in scattered[0].sentence
+
+
+TABLE = read_preset("reference-table")
+WHEELS = replace(
+    TABLE,
+    hardware=replace(TABLE.hardware, boards=(), sensors=(), actuators=TABLE.hardware.actuators[:1]),
+)
+
+
+def test_devices_are_driven_to_and_fro_and_follow():
+    with living(WHEELS) as there:
+        found = list(checked_bench(there.testbed(), 2.0, lambda question: "rw_z" not in question))
+    said = [each.sentence for each in found]
+    assert [each.sentence for each in found if not each.good] == []
+    assert "actuator wheels: answers, agrees, rw_x, rw_y, rw_z at rest" in said
+    assert sum("follows; check by eye which way it turns" in each for each in said) == 2
+    assert "device rw_z: not driven" in said
+
+
+def test_an_actuator_that_is_not_what_the_testbed_says_is_named():
+    with living(WHEELS) as there:
+        bed = there.testbed()
+        wheels = tuple(replace(wheel, max_torque=0.02) for wheel in bed.wheels)
+        found = list(checked_bench(replace(bed, wheels=wheels), 2.0, lambda _question: True))
+    (problem,) = [each.sentence for each in found if not each.good]
+    assert "rw_x takes 0.005 N m at most, by the testbed 0.02" in problem

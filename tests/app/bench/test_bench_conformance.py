@@ -14,7 +14,7 @@ from equipoise.app.live.observed_bench import WatchedBench
 from equipoise.hardware.bench.replayed_bench import ReplayedBench
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.bench import Bench
-from equipoise.model.errors import InputError, MoveRefused
+from equipoise.model.errors import DriveRefused, InputError, MoveRefused
 from equipoise.model.units import MM
 from equipoise.simulation.bench import SimulatedBench
 from tests.support.board_wire import board_of
@@ -164,3 +164,106 @@ def test_who_stops_finds_the_masses_standing(shown):
     assert later is None or np.abs(later.values - stands).max() < 1e-9
     bench.move({"y": 0.0})
     assert bench.read(2.0).masses.values[-1] == pytest.approx(np.zeros(3), abs=2e-6)
+
+
+TABLE = over_tcp(read_preset("reference-table"))
+DRIVEN = replace(
+    TABLE,
+    tilt_limit=3.0,
+    hardware=replace(
+        TABLE.hardware,
+        boards=tuple(replace(board, homing=False) for board in TABLE.hardware.boards),
+    ),
+)
+
+
+@contextlib.contextmanager
+def simulated_table():
+    yield Shown(SimulatedBench(DRIVEN, 1))
+
+
+@contextlib.contextmanager
+def replayed_table():
+    yield Shown(ReplayedBench(DRIVEN, SimulatedBench(DRIVEN, 1).read(20.0)), obeys=False)
+
+
+@contextlib.contextmanager
+def real_table():
+    with lab(DRIVEN) as found:
+        yield Shown(found.bench)
+
+
+TABLES = {"simulated": simulated_table, "replayed": replayed_table, "real": real_table}
+
+
+@pytest.fixture(params=TABLES)
+def table(request):
+    with TABLES[request.param]() as found:
+        yield found
+
+
+NOT_DRIVEN = {
+    "beyond its torque": (
+        {"rw_x": 0.001, "rw_y": -0.0051}, DriveRefused,
+        "device rw_y: asked for -0.0051 N m; its limit is 0.005 N m; nothing was driven",
+    ),
+    "beyond its dipole": (
+        {"mt_z": 0.5}, DriveRefused,
+        "device mt_z: asked for 0.5 A m^2; its limit is 0.4 A m^2; nothing was driven",
+    ),
+    "a pulse that is too short": (
+        {"jp_x": 0.0001}, DriveRefused,
+        "device jp_x: asked for 0.0001 N m s at least; its limit is 0.0005 N m s at least; "
+        "nothing was driven",
+    ),
+    "a device that is not there": (
+        {"rw_w": 0.0}, InputError, "drive: found a device 'rw_w'; did you mean 'rw_z'?",
+    ),
+    "no number": (
+        {"rw_x": float("inf")}, InputError,
+        "drive: device rw_x: found inf; wanted a finite number",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", NOT_DRIVEN)
+def test_a_drive_that_cannot_be_is_refused_whole_in_the_same_words(table, what):
+    inputs, error, sentence = NOT_DRIVEN[what]
+    bench = table.bench
+    bench.read(0.2)
+    with pytest.raises(error) as refused:
+        bench.drive(inputs)
+    assert str(refused.value) == sentence
+    rows = bench.read(0.5)
+    assert not rows.devices.values.any()
+    assert not rows.momentum.values.any()
+
+
+def test_devices_that_obey_do_what_they_are_given_until_the_bench_stops(table):
+    """5 mN m on 0.04 N m s / 628.3 rad/s: 78.5 rad/s^2; 0.3 A m^2; one pulse of 2 mN m s."""
+    bench = table.bench
+    bench.read(0.5)
+    bench.drive({"rw_x": 0.005, "mt_y": -0.3, "jp_z": 0.002})
+    first = bench.read(1.0)
+    if not table.obeys:
+        assert not first.devices.values.any()  # as was recorded
+        return
+    names = list(first.device_names)
+    assert names == list(DRIVEN.device_names)
+    wheel, coil, jet = (names.index(name) for name in ("wheel:rw_x", "dipole:mt_y", "jet:jp_z"))
+    t, rows = first.devices.t, first.devices.values
+    assert np.all(np.diff(t) > 0)
+    slope = np.polyfit(t[-20:], rows[-20:, wheel], 1)[0]
+    assert slope == pytest.approx(0.005 * 628.3 / 0.04, rel=0.02)
+    assert rows[-1, coil] == pytest.approx(-0.3, abs=1e-6)
+    impulse = np.sum(np.diff(t, prepend=2 * t[0] - t[1]) * rows[:, jet])
+    assert impulse == pytest.approx(0.002, abs=1e-6)
+    stored = first.momentum.values[-1, 0]
+    assert stored == pytest.approx(rows[-1, wheel] * 0.04 / 628.3, rel=1e-3)
+    bench.stop()
+    bench.read(0.5)
+    after = bench.read(1.0).devices.values
+    assert np.abs(after[:, coil]).max() < 1e-9
+    assert np.ptp(after[:, wheel]) < 0.5  # its tachometer's noise; 78 rad/s, if it were driven
+    bench.drive({"rw_x": -0.005})
+    assert np.ptp(bench.read(1.0).devices.values[:, wheel]) > 40.0

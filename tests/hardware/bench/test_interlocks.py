@@ -7,11 +7,18 @@ import numpy as np
 import pytest
 
 from equipoise.hardware.bench.interlocks import Observed, silence, tripped, turning
-from equipoise.hardware.transport.driver_protocol import BoardState, Phase
+from equipoise.hardware.transport.driver_protocol import (
+    Activity,
+    ActuatorState,
+    BoardState,
+    Phase,
+)
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.hardware import SafetyLimits
+from equipoise.model.reasons.actuator_faults import ActuatorFault
 from equipoise.model.reasons.board_faults import BoardFault
+from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.units import DEG
 
@@ -108,3 +115,36 @@ def test_a_fault_is_reported_in_the_boards_words():
     state = board("fault", sure=False)
     trip = tripped(replace(CALM, boards={"masses": state}), BED, LIMITS)
     assert trip.sentence == "board masses: hit; mend one of the two"
+
+
+def wheels(activity="working", torque=0.001):
+    fault = Reason(ActuatorFault.HALTED_THERE) if activity == "at fault" else None
+    return {"wheels": ActuatorState(Activity(activity), fault, {"rw_x": torque, "rw_y": 0.0})}
+
+
+def test_an_actuator_at_fault_stops_with_its_sentence():
+    trip = tripped(replace(CALM, actuators=wheels("at fault")), BED, LIMITS)
+    assert (trip.code, trip.parameters[0]) == (Interlock.DEVICE_FAULT, "wheels")
+    assert "actuator wheels: it was halted, and not by this program" in trip.sentence
+    assert kind(actuators=wheels("resting")) is None
+    assert kind(actuators=wheels("connecting to it")) is None
+
+
+def test_a_device_that_does_not_follow_stops():
+    numbers = {"wanted": 24.0, "counted": 0.0, "seconds": 1.2}
+    reason = Reason(Interlock.NOT_FOLLOWING, ("rw_x", "rad/s"), numbers)
+    assert kind(deviation=reason) is Interlock.NOT_FOLLOWING
+
+
+def test_a_sensor_that_falls_silent_stops_a_device_that_turns_the_platform():
+    silent = {("imu", "attitude"): 0.6}
+    assert kind(silent=silent, actuators=wheels()) is Interlock.SILENCE
+    assert kind(silent=silent, actuators=wheels(torque=0.0)) is None
+    assert kind(silent=silent, actuators=wheels("resting")) is None
+
+
+def test_tilt_stops_devices_that_work_where_no_board_is():
+    leaning = attitudes(41, 41, 41)
+    assert kind(attitudes=leaning, boards={}) is None
+    assert kind(attitudes=leaning, boards={}, actuators=wheels("resting")) is None
+    assert kind(attitudes=leaning, boards={}, actuators=wheels(torque=0.0)) is Interlock.TILT

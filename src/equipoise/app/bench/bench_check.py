@@ -1,14 +1,16 @@
 """What a bench says when each device is spoken to, one sentence each.
 
-Boards answer and agree with the testbed; masses go home, and 1 mm out and back where a person
-agrees; sensors stream; attitudes are upright and turn as the gyro does.
+Boards and actuators answer and agree with the testbed; masses go home, and 1 mm out and back where
+a person agrees; sensors stream; attitudes are upright and turn as the gyro does; devices follow
+what they are driven to.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.app.bench.check_result import CheckResult
+from equipoise.app.bench.device_check import actuators_answer, devices_follow
 from equipoise.app.bench.emulation import hardware_of
 from equipoise.app.bench.open_bench import keeper_of
 from equipoise.app.bench.port_check import unreachable
@@ -33,14 +35,6 @@ LISTED = "; `equipoise devices` lists serial ports"
 ARRIVE, MEASUREMENT = 1.0, 0.05  # s, chosen: beyond the time that the way takes; between readings
 
 
-@dataclass(frozen=True, slots=True)
-class CheckResult:
-    """One finding."""
-
-    good: bool
-    sentence: str
-
-
 def checked_bench(
     testbed: Testbed, streamed: float, agreed: Callable[[str], bool], opener: Opener = open_port
 ) -> Iterator[CheckResult]:
@@ -61,8 +55,10 @@ def checked_bench(
         else:
             yield CheckResult(True, "no sensor is declared: nothing to stream")
         if keeper.links.ready:
-            for mass in testbed.masses:
+            moved = keeper.links.positions
+            for mass in (each for each in testbed.masses if each.name in moved):
                 yield from _moved(bench, keeper, mass, agreed)
+            yield from devices_follow(bench, keeper, agreed)
     except EquipoiseError as error:
         yield CheckResult(False, f"{error}")
     finally:
@@ -81,6 +77,7 @@ def _started(
         yield CheckResult(True, f"board {link.board.name}: answers, agrees, {names} at home")
         for remark in link.driver.remarks:
             yield CheckResult(False, f"board {link.board.name}: {remark.sentence}")
+    yield from actuators_answer(keeper.links.actuators)
 
 
 def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[CheckResult]:

@@ -8,19 +8,25 @@ or as the clock on the wall.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from equipoise.app.bench.held_platform import HeldPlatform, later
 from equipoise.hardware.emulated.counterpart import Counterpart, counterpart
-from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor, Leg
-from equipoise.hardware.emulated.registry import SENSORS, emulated_board
+from equipoise.hardware.emulated.device import (
+    EmulatedActuator,
+    EmulatedBoard,
+    EmulatedSensor,
+    Given,
+    Leg,
+)
+from equipoise.hardware.emulated.registry import SENSORS, emulated_actuator, emulated_board
 from equipoise.hardware.emulated.serial_line import SerialLine
 from equipoise.hardware.transport.driver_protocol import driver_named
 from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Quaternion
 from equipoise.model.errors import InputError
-from equipoise.model.hardware import Hardware
-from equipoise.model.recording import Recording
+from equipoise.model.hardware import ActuatorUnit, Hardware, MotorBoard, SensorUnit
+from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 
@@ -28,6 +34,7 @@ AT_HOME = 2e-6  # m, chosen: boards report positions to 1 um
 NOTICED = 1.0  # s, chosen: by then an interlock has stopped what it is to stop
 
 Device = TypeVar("Device")
+Unit = TypeVar("Unit", MotorBoard, SensorUnit, ActuatorUnit)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,8 +65,10 @@ class EmulatedBench:
         platform: Callable[[], SimulatedBench],
         boards: Sequence[Station[EmulatedBoard]],
         sensors: Sequence[Station[EmulatedSensor]],
+        actuators: Sequence[Station[EmulatedActuator]] = (),
     ) -> None:
         self._make, self.boards, self.sensors = platform, boards, sensors
+        self.actuators = actuators
         self.time = 0.0  # s, of the devices
         self._let_go = 0.0  # s, when
         self.leaning = 0.0  # rad, as last observed
@@ -74,12 +83,15 @@ class EmulatedBench:
         if t <= self.time:
             return
         legs = [leg for station in self.boards for leg in self._ran(station, t)]
+        given = [each for station in self.actuators for each in self._ran(station, t)]
         if self._held is None and any(station.device.homing for station in self.boards):
             self.catch()
-        rows = self._pass(legs, t)
+        rows = self._pass(legs, given, t)
         if rows.attitude is not None and len(rows.attitude):
             self.leaning = float(tilt(rows.attitude.values[-1], self.platform.testbed.up))
             self._observed = (self.time, rows.attitude.values[-1])
+        for station in self.actuators:
+            station.device.observe(rows, t)
         for station in self.sensors:
             for message in station.device.messages(rows):
                 station.say(message, t)
@@ -104,33 +116,35 @@ class EmulatedBench:
         """Return the testbed with the ports at which these devices are reached."""
         bed = self.platform.testbed
         hardware = hardware_of(bed)
-        boards = tuple(
-            replace(board, port=replace(board.port, address=station.wire.address))
-            for board, station in zip(hardware.boards, self.boards, strict=True)
-        )
-        sensors = tuple(
-            replace(unit, port=replace(unit.port, address=station.wire.address))
-            for unit, station in zip(hardware.sensors, self.sensors, strict=True)
-        )
-        return replace(bed, hardware=replace(hardware, boards=boards, sensors=sensors))
+        boards = tuple(map(_reached, hardware.boards, self.boards))
+        sensors = tuple(map(_reached, hardware.sensors, self.sensors))
+        actuators = tuple(map(_reached, hardware.actuators, self.actuators))
+        reached = replace(hardware, boards=boards, sensors=sensors, actuators=actuators)
+        return replace(bed, hardware=reached)
+
+    @property
+    def stations(self) -> tuple[Station[Any], ...]:
+        """Every device with its wire."""
+        return (*self.boards, *self.sensors, *self.actuators)
 
     def close(self) -> None:
         """Pull out every wire."""
-        for station in (*self.boards, *self.sensors):
+        for station in self.stations:
             station.wire.close()
 
     def _receive(self) -> None:
-        for station in (*self.boards, *self.sensors):
+        for station in self.stations:
             data = station.wire.receive()
             if data:
                 station.say(station.device.take(data, self.time), self.time)
 
-    def _ran(self, station: Station[EmulatedBoard], t: float) -> Sequence[Leg]:
-        said, legs = station.device.run(t)
+    def _ran(self, station: Station[Any], t: float) -> Sequence[Any]:
+        """Let a device's time pass; return what it began."""
+        said, begun = station.device.run(t)
         station.wire.send(said)
-        return legs
+        return begun
 
-    def _pass(self, legs: Sequence[Leg], t: float) -> Recording:
+    def _pass(self, legs: Sequence[Leg], given: Sequence[Given], t: float) -> Recording:
         """Let the platform go on, or be held, and return what its sensors see."""
         before, self.time = self.time, t
         if self._held is not None:
@@ -146,7 +160,18 @@ class EmulatedBench:
             start, end = max(leg.t - self._let_go, now), leg.end - self._let_go
             self.platform.lead(leg.mass, start, max(start, end), leg.displacement)
         self._ahead = [leg for leg in self._ahead if leg.t > t]
-        return later(self.platform.read(t - before), self._let_go)
+        return later(self._driven(given, t - before), self._let_go)
+
+    def _driven(self, given: Sequence[Given], duration: float) -> Recording:
+        """Let the platform go on for so long (s), its devices driven at their times."""
+        platform, parts = self.platform, list[Recording]()
+        end = platform.time + duration
+        for each in sorted(given, key=lambda each: each.t):
+            wait = min(each.t - self._let_go, end) - platform.time
+            if wait > 0:
+                parts.append(platform.read(wait))
+            platform.drive({each.device: each.value})
+        return joined([*parts, platform.read(max(end - platform.time, 0.0))])
 
     def _all_home(self, t: float) -> bool:
         """Say whether every mass of a board that homes has been away, and has come home."""
@@ -184,7 +209,16 @@ def emulate(testbed: Testbed, seed: int) -> EmulatedBench:
         )
         for unit in hardware.sensors
     ]
-    return EmulatedBench(partial(SimulatedBench, testbed, seed), boards, sensors)
+    actuators: list[Station[EmulatedActuator]] = [
+        Station(emulated_actuator(unit, testbed.devices), counterpart(unit.port))
+        for unit in hardware.actuators
+    ]
+    return EmulatedBench(partial(SimulatedBench, testbed, seed), boards, sensors, actuators)
+
+
+def _reached(unit: Unit, station: Station[Any]) -> Unit:
+    """Return a unit with the port at which its counterpart is reached."""
+    return replace(unit, port=replace(unit.port, address=station.wire.address))
 
 
 def hardware_of(testbed: Testbed) -> Hardware:

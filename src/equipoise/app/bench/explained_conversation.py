@@ -4,10 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from equipoise.app.bench.lost_onlookers import complain_of
+from equipoise.hardware.actuators import registry as actuators
 from equipoise.hardware.bench.onlookers import Onlookers
 from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.wall_clock import WallClock
-from equipoise.hardware.boards.registry import EXPLAINED
+from equipoise.hardware.boards import registry as boards
 from equipoise.hardware.transport.explained_bytes import Explained, PlainBytes
 from equipoise.hardware.transport.port import Port
 from equipoise.hardware.transport.tapped_port import TappedPort
@@ -33,10 +34,11 @@ class Conversations:
     """
 
     def __init__(self, hardware: Hardware, print_line: Callable[[str], None]) -> None:
-        devices = [*hardware.boards, *hardware.sensors]
-        self._names = {device.port.address: device.name for device in devices}
+        units = hardware.units
+        self._names = {unit.port.address: unit.name for unit in units}
+        spoken = {**boards.EXPLAINED, **actuators.EXPLAINED}
         self._words: dict[str, Explained] = {
-            device.port.address: EXPLAINED.get(device.driver, PlainBytes)() for device in devices
+            unit.port.address: spoken.get(unit.driver, PlainBytes)() for unit in units
         }
         self._endless = {unit.port.address: FIRST for unit in hardware.sensors}
         self._last: dict[tuple[str, str], Said] = {}

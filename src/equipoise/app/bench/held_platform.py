@@ -57,9 +57,14 @@ class HeldPlatform:
 
 
 def later(recording: Recording, by: float) -> Recording:
-    """Return a recording's sensor rows at times that are greater by so much (s)."""
+    """Return a recording's rows of sensors and devices at times greater by so much (s)."""
 
     def moved(channel: Samples | None) -> Samples | None:
         return None if channel is None else Samples(channel.t + by, channel.values)
 
-    return replace(recording, attitude=moved(recording.attitude), rate=moved(recording.rate))
+    return replace(
+        recording,
+        attitude=moved(recording.attitude),
+        rate=moved(recording.rate),
+        devices=moved(recording.devices),
+    )

@@ -8,6 +8,7 @@ from pathlib import Path
 from equipoise.app.bench.emulation import hardware_of
 from equipoise.app.bench.port_check import check_reachable
 from equipoise.app.console.terminal import complain, stderr
+from equipoise.hardware.actuators.registry import ACTUATORS
 from equipoise.hardware.bench.bench_controller import Keeper
 from equipoise.hardware.bench.controller_process import DistantKeeper
 from equipoise.hardware.bench.open_port import open_port
@@ -15,6 +16,7 @@ from equipoise.hardware.bench.port_lock import commanding
 from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.boards.registry import BOARDS
+from equipoise.hardware.links.actuator_link import ActuatorLink
 from equipoise.hardware.links.device_links import BoardLink, Links
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
@@ -52,12 +54,12 @@ class KeptBench:
 
     def _begun(self, wanted: Wanted) -> Keeper:
         hardware = hardware_of(wanted.testbed)
-        devices = (*hardware.boards, *hardware.sensors)
-        self._held.enter_context(commanding([device.port.address for device in devices]))
+        units = hardware.units
+        self._held.enter_context(commanding([unit.port.address for unit in units]))
         check_reachable(hardware)
         keeper = keeper_of(wanted.testbed)
         if wanted.record is not None:
-            drivers = {device.name: device.driver for device in devices}
+            drivers = {unit.name: unit.driver for unit in units}
             text = text_of_testbed(wanted.testbed)
             opening = Opening(self.clock.begun_ns, text, wanted.testbed, drivers)
             keeper.listen(self._held.enter_context(LiveRecording(wanted.record, opening)))
@@ -95,7 +97,16 @@ def keeper_of(testbed: Testbed, opener: Opener = open_port) -> Keeper:
         )
         for unit in hardware.sensors
     ]
-    return Keeper(testbed, hardware, Links(boards, sensors))
+    actuators = [
+        ActuatorLink(
+            unit,
+            driver_named(ACTUATORS, unit.driver, "actuator")(unit, testbed.devices),
+            Connection(unit.port, opener),
+            testbed.devices,
+        )
+        for unit in hardware.actuators
+    ]
+    return Keeper(testbed, hardware, Links(boards, sensors, actuators))
 
 
 def periods_of(testbed: Testbed) -> dict[Gives, float]:

@@ -16,7 +16,8 @@ def check_reachable(hardware: Hardware) -> None:
 def unreachable(hardware: Hardware) -> list[str]:
     """Return a sentence for each device whose port cannot be opened now."""
     reported: list[str] = []
-    for kind, devices in (("board", hardware.boards), ("sensor", hardware.sensors)):
+    kinds = {"board": hardware.boards, "sensor": hardware.sensors, "actuator": hardware.actuators}
+    for kind, devices in kinds.items():
         for device in devices:
             try:
                 open_port(device.port).close()

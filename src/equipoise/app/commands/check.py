@@ -6,13 +6,13 @@ from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import agreed, announced, busy, stdout
 
 if TYPE_CHECKING:
-    from equipoise.app.bench.bench_check import CheckResult
+    from equipoise.app.bench.check_result import CheckResult
 
 STREAMED = 2.0  # s of every sensor, as the usage says
 
 
 def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
-    """Talk to each device of a real bench: boards, sensors, frames; move each mass 1 mm and back.
+    """Talk to each device of a real bench; move each mass 1 mm and back, drive devices a little.
 
     Masses go home first. Turn the platform a little by hand while the sensors stream, so that the
     signs of gyro and attitude can be compared. Ends with 1 when something is wrong.
@@ -22,7 +22,7 @@ def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
     testbed
         Testbed file with a [hardware] table.
     yes
-        Move masses without asking.
+        Move masses and drive devices without asking.
     explain
         Print the conversation with each device as it happens, both directions, in words.
     """

@@ -43,7 +43,7 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
         bed = bench.testbed()
         write_testbed(bed, out)
         assert bed.hardware is not None
-        for device in (*bed.hardware.boards, *bed.hardware.sensors):
+        for device in bed.hardware.units:
             stdout().print(f"{device.name}: {device.driver} at {device.port.address}")
         stdout().print(f"wrote {out}; Ctrl-C ends the emulation")
         _run(bench, longest)

@@ -14,12 +14,13 @@ import numpy as np
 from equipoise.hardware.bench.interlocks import LAST, Observed, silence, tripped
 from equipoise.hardware.bench.onlookers import Onlookers, why_lost
 from equipoise.hardware.links.device_links import Links
+from equipoise.hardware.links.device_rows import DeviceRows
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.model.arrays import Floats
-from equipoise.model.bench_requests import checked_targets
-from equipoise.model.errors import BenchStopped
+from equipoise.model.bench_requests import checked_inputs, checked_targets
+from equipoise.model.errors import BenchStopped, DriveRefused
 from equipoise.model.hardware import Hardware
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
@@ -54,8 +55,8 @@ class BenchState:
     trip: Reason | None = None  # why every motor is stopped; None: none is
     stops: int = 0  # how often every motor was stopped so far
     trouble: Reason | None = None  # what keeps masses from being moved now; None if nothing does
-    answered: bool = False  # every board has said how it is
-    ready: bool = False  # every board stands and knows where
+    answered: bool = False  # every board and actuator has said how it is
+    ready: bool = False  # every board stands and knows where, every actuator can be driven
     fresh: bool = False  # every sensor gives rows
     lost: tuple[str, ...] = ()  # sentences on views that failed; the bench goes on without them
 
@@ -72,7 +73,9 @@ class Keeper:
         self._rates: list[tuple[float, Floats]] = []
         self._before: dict[str, tuple[float, float]] = {}
         self._silent: tuple[str, ...] = ()  # sensor and channel
-        self._received = RowBuffer(testbed.masses)
+        self._received = RowBuffer(testbed.masses, testbed.device_names)
+        driven = [link.unit.drives for link in links.actuators]
+        self._counted = DeviceRows(testbed.devices, driven)
         self.t = 0.0
         self.trip: Reason | None = None
         self._stops = 0
@@ -97,6 +100,7 @@ class Keeper:
             self._sensed(link, t)
         for link in self.links.boards:
             link.turn(t)
+        self._counted_by_devices(t)
         self._received.masses(self.links.positions, self.links.wants, self.links.reported)
         self._guard(t)
         self.links.send(t)
@@ -137,8 +141,25 @@ class Keeper:
         self._able()  # to note it may have filled the disk
         self.links.go(by_name, self.t)
 
+    def drive(self, inputs: Mapping[str, float]) -> None:
+        """Give devices their inputs: all or none; what is not named goes on as it was.
+
+        Raises InputError or DriveRefused for an input that cannot be, BenchStopped while devices
+        may not be driven.
+        """
+        devices = self.testbed.devices
+        checked = checked_inputs(devices, inputs)
+        by_name = {devices[i].name: value for i, value in checked.items()}
+        driven = {name for link in self.links.actuators for name in link.unit.drives}
+        for name in (name for name, value in by_name.items() if value and name not in driven):
+            raise DriveRefused(name, by_name[name], 0.0, "(no [[hardware.actuator]] drives it)")
+        if not by_name.keys() & driven:
+            return
+        self._able()
+        self.links.drive(by_name, self.t)
+
     def halt(self, why: Reason | None = None) -> None:
-        """Stop every mass; with a reason, masses stay until ``home``."""
+        """Stop every mass and device; with a reason, they stay until ``home``."""
         if why is not None:
             self._stop(why)
             return
@@ -163,6 +184,17 @@ class Keeper:
         if why is not None:
             raise BenchStopped(f"nothing was moved: {why.sentence}", why)
 
+    def _counted_by_devices(self, t: float) -> None:
+        """Take what actuators report; rows go on once all of them have."""
+        for i, link in enumerate(self.links.actuators):
+            reports = link.turn(t)
+            if link.begun_anew:
+                self._counted.begin()
+            for report in reports:
+                self._counted.reported(i, report.t, report.values)
+        for when, values in self._counted.rows():
+            self._received.devices(when, values)
+
     def _sensed(self, link: SensorLink, t: float) -> None:
         for row in link.turn(t):
             if self._received.row(row):
@@ -186,7 +218,10 @@ class Keeper:
 
     def _observed(self, t: float) -> Observed:
         silent, states = self.links.silent, self.links.states
-        return Observed(t, self._attitudes, self._rates, silent, states, self._before)
+        return Observed(
+            t, self._attitudes, self._rates, silent, states, self._before,
+            self.links.activities, self.links.deviation,
+        )  # fmt: skip
 
     def _remember(self) -> None:
         """Keep an earlier answer of each board, to compute speeds from."""

@@ -4,8 +4,8 @@ The two communicate through a pipe. When it breaks, because the commander has en
 crashed, the keeper halts every mass, closes the record and ends. Signals to stop reach the
 commander alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
-    commander to keeper    (n, "go", targets)  (n, "home")  (n, "begin")  (n, "halt", why)
-                           (n, "health")       (n, "note", kind, sentence, data)
+    commander to keeper    (n, "go", targets)  (n, "drive", inputs)  (n, "home")  (n, "begin")
+                           (n, "halt", why)    (n, "health")  (n, "note", kind, sentence, data)
                            n: counts the commands
     keeper to commander    ("news", News)      ("answer", (n, what came of it, or an error))
 """
@@ -111,7 +111,7 @@ def _serve(pipe: Pipe, kept: Kept, box: "queue.SimpleQueue[tuple[str, Any] | Non
 
 def _news(keeper: Keeper, t: float) -> News:
     rows = keeper.taken()
-    any_rows = any(c is not None for c in (rows.attitude, rows.rate, rows.masses))
+    any_rows = any(c is not None for c in (rows.attitude, rows.rate, rows.masses, rows.devices))
     return News(t, keeper.state, rows if any_rows else None)
 
 
@@ -119,6 +119,7 @@ def _carried_out(keeper: Keeper, verb: str, *what: Any) -> Any:
     """Carry out a command; return what it gives, or what was wrong with it."""
     verbs: dict[str, Callable[..., Any]] = {
         "go": keeper.go,
+        "drive": keeper.drive,
         "home": keeper.home,
         "begin": keeper.begin,
         "halt": keeper.halt,
@@ -189,6 +190,10 @@ class DistantKeeper:
     def go(self, targets: Mapping[str, float]) -> None:
         """Send masses to displacements (m): all or none."""
         self._request("go", dict(targets))
+
+    def drive(self, inputs: Mapping[str, float]) -> None:
+        """Give devices their inputs: all or none."""
+        self._request("drive", dict(inputs))
 
     def home(self) -> None:
         """Let every board find its position."""

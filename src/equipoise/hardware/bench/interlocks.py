@@ -1,16 +1,17 @@
-"""The interlocks that stop every motor, evaluated at every turn, whoever commands.
+"""The interlocks that stop every motor and device, evaluated at every turn, whoever commands.
 
     tilt, rate      the median of the last three rows is beyond its limit
     silence         a sensor has given no row of a channel, or a board no answer, for too long
     travel, speed   a mass is beyond its travel, or faster than it can be
     mismatch        a mass stands elsewhere than where it was sent
-    fault           a board says that something is wrong
+    fault           a board or an actuator says that something is wrong
+    following       a device does not do what it is driven to, or is beyond its limit
 
 ``model.reasons.interlocks`` has them all, those of a bench that does not start among them.
 
-A sensor that falls silent stops masses that move; while they stand nothing needs to be stopped,
-and it may come back. Tilt and rate stop nothing where no board knows its masses' places yet, or
-there is no board: who only records is not disturbed.
+A sensor that falls silent stops masses that move and devices that give a torque; while they rest
+nothing needs to be stopped, and it may come back. Tilt and rate stop nothing where no board knows
+its masses' places yet and no device works, or there is none: who only records is not disturbed.
 """
 
 import math
@@ -20,7 +21,12 @@ from statistics import median
 
 import numpy as np
 
-from equipoise.hardware.transport.driver_protocol import BoardState, Phase
+from equipoise.hardware.transport.driver_protocol import (
+    Activity,
+    ActuatorState,
+    BoardState,
+    Phase,
+)
 from equipoise.maths.attitude import conjugate, multiply, tilt
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import Gives, SafetyLimits
@@ -48,16 +54,22 @@ class Observed:
     before: Mapping[str, tuple[float, float]] = field(  # s, m: an earlier answer, by mass
         default_factory=dict[str, tuple[float, float]]
     )
+    actuators: Mapping[str, ActuatorState] = field(default_factory=dict[str, ActuatorState])
+    deviation: Reason | None = None  # the first device that does not do what it is driven to
 
     @property
     def able(self) -> bool:
-        """Say whether any mass could be moved, so that there is something to stop."""
-        return self.moving or any(state.sure for state in self.boards.values())
+        """Say whether any mass or device could act, so that there is something to stop."""
+        working = any(each.activity is Activity.WORKING for each in self.actuators.values())
+        return working or self.moving or any(state.sure for state in self.boards.values())
 
     @property
     def moving(self) -> bool:
-        """Say whether any mass may be on its way."""
-        return any(state.phase in (Phase.MOVING, Phase.HOMING) for state in self.boards.values())
+        """Say whether any mass may be on its way, or a device turn the platform."""
+        acting = any(each.active for each in self.actuators.values())
+        return acting or any(
+            state.phase in (Phase.MOVING, Phase.HOMING) for state in self.boards.values()
+        )
 
 
 def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reason | None:
@@ -93,7 +105,10 @@ def _fault(observed: Observed) -> Reason | None:
     for name, state in observed.boards.items():
         if state.phase is Phase.FAULT:
             return Reason(Interlock.FAULT, (name, state.sentence))
-    return None
+    for name, state in observed.actuators.items():
+        if state.activity is Activity.FAULT:
+            return Reason(Interlock.DEVICE_FAULT, (name, state.sentence))
+    return observed.deviation
 
 
 def _leaning(observed: Observed, testbed: Testbed) -> Reason | None:

@@ -7,13 +7,15 @@ work, and masses stay until ``home``.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Protocol
 
+from equipoise.actuators.stored_momentum import stored_momentum
 from equipoise.hardware.bench.bench_controller import Keeper
 from equipoise.hardware.bench.controller_process import DistantKeeper
 from equipoise.hardware.links.health import Health
-from equipoise.model.bench_requests import check_duration, checked_inputs
-from equipoise.model.errors import BenchStopped, DriveRefused
+from equipoise.model.bench_requests import check_duration
+from equipoise.model.errors import BenchStopped
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, join
@@ -89,7 +91,7 @@ class RealBench:
                 self._keeper.halt(Reason(Interlock.NO_ROWS, (), {"seconds": PATIENCE}))
             self._wait()
             found = join(found, self._keeper.taken())
-        return found
+        return replace(found, momentum=stored_momentum(found, self.testbed))
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Set masses on their way to displacements from home (m)."""
@@ -101,14 +103,16 @@ class RealBench:
         self._turn()
 
     def drive(self, inputs: Mapping[str, float]) -> None:
-        """Refuse: no driver of wheels, gyros, coils or jets is there yet."""
-        checked_inputs(self.testbed.devices, inputs)
-        for name, value in inputs.items():
-            if value != 0.0:
-                raise DriveRefused(name, value, 0.0, "(no driver of this kind of device)")
+        """Give devices their inputs; what is not named goes on as it was."""
+        keeper = self._keeper
+        self._turn()
+        if keeper.state.trip is None and not keeper.state.fresh:
+            self._until(lambda: keeper.state.fresh, PATIENCE, Interlock.NOT_MOVABLE)
+        keeper.drive(inputs)
+        self._turn()
 
     def stop(self) -> None:
-        """Halt every mass where it is."""
+        """Halt every mass where it is, and every device."""
         self._keeper.halt()
         self._turn()
 

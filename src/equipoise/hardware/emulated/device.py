@@ -26,6 +26,15 @@ class Leg:
     displacement: float  # m
 
 
+@dataclass(frozen=True, slots=True)
+class Given:
+    """An input that the electronics of a device give it (``model.devices``), from t on."""
+
+    device: str
+    t: float  # s
+    value: float
+
+
 class EmulatedSensor(Protocol):
     """A sensor's emulated counterpart."""
 
@@ -68,6 +77,30 @@ class EmulatedBoard(Protocol):
 
     def hit_limit(self) -> None:
         """Push the limit switch ahead of whatever goes."""
+        ...
+
+
+class EmulatedActuator(Protocol):
+    """The emulated counterpart of the electronics of wheels, gyros, coils or jets."""
+
+    def take(self, data: bytes, t: float) -> bytes:
+        """Return what it answers at once to what the host sent."""
+        ...
+
+    def run(self, t: float) -> tuple[bytes, Sequence[Given]]:
+        """Let time pass up to ``t``; return what it says meanwhile and what it gives devices."""
+        ...
+
+    def observe(self, rows: Recording, t: float) -> None:
+        """Take what the platform's devices did up to ``t``; to be said from now on."""
+        ...
+
+    def press_reset(self, t: float) -> None:
+        """Press the button on it."""
+        ...
+
+    def switch(self, on: bool, t: float) -> None:
+        """Switch the power; without it no device is driven."""
         ...
 
 

@@ -1,15 +1,19 @@
-"""A board at the end of a serial line: bytes take their time, there and back.
+"""A device at the end of a serial line: bytes take their time, there and back.
 
 A byte with its start and stop bit is ten bits; a wire carries one after the other. Each byte
-reaches the board at its own time, and what the board says leaves it in the order in which it was
+reaches the device at its own time, and what the device says leaves it in the order in which it was
 said. A bridge of Wi-Fi or Bluetooth has such a line behind it too.
 """
 
 from collections import deque
 from collections.abc import Sequence
+from typing import Generic, Protocol, TypeVar
 
-from equipoise.hardware.emulated.device import EmulatedBoard, Leg
+from equipoise.hardware.emulated.device import EmulatedActuator, EmulatedBoard, Given, Leg
+from equipoise.model.recording import Recording
 
+Begun = TypeVar("Begun", covariant=True)
+Started = TypeVar("Started")
 BITS = 10  # of a byte on the wire: start, eight, stop
 
 
@@ -35,31 +39,56 @@ class SerialLine:
         return found
 
 
-class BoardOnLine:
-    """A board behind its line; what people do to it reaches the board itself."""
+class Device(Protocol[Begun]):
+    """What is behind a line: it answers bytes, and begins something by and by."""
 
-    def __init__(self, board: EmulatedBoard, baud: int) -> None:
-        self.board = board
+    def take(self, data: bytes, t: float) -> bytes:
+        """Return what it answers at once."""
+        ...
+
+    def run(self, t: float) -> tuple[bytes, Sequence[Begun]]:
+        """Let time pass; return what it says meanwhile and what it began."""
+        ...
+
+
+class OnLine(Generic[Started]):
+    """A device behind its line."""
+
+    def __init__(self, device: Device[Started], baud: int) -> None:
+        self._device = device
         self._there, self._back = SerialLine(baud), SerialLine(baud)
-
-    @property
-    def homing(self) -> bool:
-        """Say whether masses are on their way to their switches."""
-        return self.board.homing
 
     def take(self, data: bytes, t: float) -> bytes:
         """Put bytes on the line; nothing is answered at once."""
         self._there.put(data, t)
         return b""
 
-    def run(self, t: float) -> tuple[bytes, Sequence[Leg]]:
+    def run(self, t: float) -> tuple[bytes, Sequence[Started]]:
         """Let time pass, byte by byte."""
-        legs: list[Leg] = []
+        begun: list[Started] = []
         for when, byte in self._there.arrived(t):
-            self._ran(when, legs)
-            self._back.put(self.board.take(byte, when), when)
-        self._ran(t, legs)
-        return b"".join(byte for _, byte in self._back.arrived(t)), legs
+            self._ran(when, begun)
+            self._back.put(self._device.take(byte, when), when)
+        self._ran(t, begun)
+        return b"".join(byte for _, byte in self._back.arrived(t)), begun
+
+    def _ran(self, t: float, begun: list[Started]) -> None:
+        said, new = self._device.run(t)
+        self._back.put(said, t)
+        begun += new
+
+
+class BoardOnLine(OnLine[Leg]):
+    """A board behind its line; what people do to it reaches the board itself."""
+
+    def __init__(self, board: EmulatedBoard, baud: int) -> None:
+        super().__init__(board, baud)
+        self.board = board
+
+    @property
+    def homing(self) -> bool:
+        """Say whether masses are on their way to their switches."""
+        return self.board.homing
 
     def press_reset(self) -> None:
         """Press the button on the board."""
@@ -73,7 +102,22 @@ class BoardOnLine:
         """Push a limit switch."""
         self.board.hit_limit()
 
-    def _ran(self, t: float, legs: list[Leg]) -> None:
-        said, begun = self.board.run(t)
-        self._back.put(said, t)
-        legs += begun
+
+class ActuatorOnLine(OnLine[Given]):
+    """The electronics of wheels, gyros, coils or jets behind their line."""
+
+    def __init__(self, actuator: EmulatedActuator, baud: int) -> None:
+        super().__init__(actuator, baud)
+        self.actuator = actuator
+
+    def observe(self, rows: Recording, t: float) -> None:
+        """Take what the platform's devices did."""
+        self.actuator.observe(rows, t)
+
+    def press_reset(self, t: float) -> None:
+        """Press the button on it."""
+        self.actuator.press_reset(t)
+
+    def switch(self, on: bool, t: float) -> None:
+        """Switch the power."""
+        self.actuator.switch(on, t)

@@ -1,12 +1,20 @@
-"""The devices of a bench, each with its port, and their combined state."""
+"""The units of a bench, each with its port, and their combined state."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from equipoise.hardware.links.actuator_link import ActuatorLink
+from equipoise.hardware.links.driver_turn import fed, said
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.hardware.links.sensor_link import SensorLink
-from equipoise.hardware.transport.driver_protocol import BoardDriver, BoardState, Phase
+from equipoise.hardware.transport.driver_protocol import (
+    Activity,
+    ActuatorState,
+    BoardDriver,
+    BoardState,
+    Phase,
+)
 from equipoise.hardware.transport.reconnecting_port import Connection
 from equipoise.model.hardware import Gives, MotorBoard
 from equipoise.model.reasons.interlocks import Interlock
@@ -26,34 +34,36 @@ class BoardLink:
 
     def turn(self, t: float) -> None:
         """Feed the driver what has arrived."""
-        turn = self.connection.turn(t)
-        if turn.opened:
-            self.driver.opened(t)
-        for data in turn.data:
-            self.driver.feed(data, t)
-        if turn.lost:
-            self.driver.closed(turn.lost)
+        fed(self.driver, self.connection, t)
 
     def send(self, t: float) -> None:
         """Send what the driver has to say."""
-        if self.connection.why:
-            return
-        lost = self.connection.send(self.driver.due(t), t).lost
-        if lost:
-            self.driver.closed(lost)
+        said(self.driver, self.connection, t)
 
 
 @dataclass(frozen=True, slots=True)
 class Links:
-    """Motor boards and sensors."""
+    """Motor boards, sensors and actuators."""
 
     boards: Sequence[BoardLink]
     sensors: Sequence[SensorLink]
+    actuators: Sequence[ActuatorLink] = ()
 
     @property
     def states(self) -> dict[str, BoardState]:
         """How each board is, by its name."""
         return {link.board.name: link.driver.state for link in self.boards}
+
+    @property
+    def activities(self) -> dict[str, ActuatorState]:
+        """How each actuator is, by its name."""
+        return {link.unit.name: link.driver.state for link in self.actuators}
+
+    @property
+    def deviation(self) -> Reason | None:
+        """The first device that does not do what it is driven to; None: all do."""
+        found = (link.deviation for link in self.actuators)
+        return next((reason for reason in found if reason is not None), None)
 
     @property
     def positions(self) -> dict[str, float]:
@@ -62,13 +72,18 @@ class Links:
 
     @property
     def ready(self) -> bool:
-        """Say whether every board stands and knows where."""
-        return all(state.phase is Phase.READY and state.sure for state in self.states.values())
+        """Say whether every board stands and knows where, and every actuator can be driven."""
+        able = (Activity.RESTING, Activity.WORKING)
+        return all(
+            state.phase is Phase.READY and state.sure for state in self.states.values()
+        ) and all(state.activity in able for state in self.activities.values())
 
     @property
     def answered(self) -> bool:
-        """Say whether every board has said how it is."""
-        return all(state.phase is not Phase.CONNECTING for state in self.states.values())
+        """Say whether every board and every actuator has said how it is."""
+        return all(state.phase is not Phase.CONNECTING for state in self.states.values()) and all(
+            state.activity is not Activity.CONNECTING for state in self.activities.values()
+        )
 
     @property
     def reported(self) -> float | None:
@@ -88,22 +103,27 @@ class Links:
         """The first device whose port is closed, and why; None if none is."""
         links = [(f"sensor {link.unit.name}", link.connection.why) for link in self.sensors]
         links += [(f"board {link.board.name}", link.connection.why) for link in self.boards]
+        links += [(f"actuator {link.unit.name}", link.connection.why) for link in self.actuators]
         closed = (Reason(Interlock.UNREACHABLE, (name, why)) for name, why in links if why)
         return next(closed, None)
 
     @property
     def unsure(self) -> Reason | None:
-        """The first board that is at fault or has lost its position, and why; None if none."""
+        """The first board or actuator that may not be used, and why; None if all may."""
         for name, state in self.states.items():
             if state.phase is Phase.FAULT or not state.sure:
                 fault = Reason(Interlock.FAULT, (name, state.sentence))
                 return fault if state.sentence else Reason(Interlock.POSITION_UNKNOWN, (name,))
+        for name, state in self.activities.items():
+            if state.activity in (Activity.CONNECTING, Activity.FAULT):
+                why = state.sentence or f"the program is {state.activity}"
+                return Reason(Interlock.DEVICE_FAULT, (name, why))
         return None
 
     @property
     def health(self) -> list[Health]:
         """How well each device answers."""
-        return [*(link.health for link in self.boards), *(link.health for link in self.sensors)]
+        return [link.health for link in (*self.boards, *self.sensors, *self.actuators)]
 
     @property
     def silent(self) -> dict[tuple[str, Gives], float]:
@@ -121,22 +141,33 @@ class Links:
             if own:
                 link.driver.go(own, t)
 
+    def drive(self, inputs: Mapping[str, float], t: float) -> None:
+        """Give devices their inputs, each by its actuator."""
+        for link in self.actuators:
+            own = {name: inputs[name] for name in link.unit.drives if name in inputs}
+            if own:
+                link.driver.drive(own, t)
+
     def home(self, t: float) -> None:
-        """Let every board find its position."""
+        """Let every board find its position, and every actuator rest and begin anew."""
         for link in self.boards:
             link.driver.home(t)
+        for link in self.actuators:
+            link.begin(t)
 
     def halt(self, t: float) -> None:
-        """Stop every mass."""
+        """Stop every mass, and let every device rest."""
         for link in self.boards:
             link.driver.halt(t)
+        for link in self.actuators:
+            link.driver.rest(t)
 
     def send(self, t: float) -> None:
-        """Send each board what its driver has to say."""
-        for link in self.boards:
+        """Send each board and each actuator what its driver has to say."""
+        for link in (*self.boards, *self.actuators):
             link.send(t)
 
     def close(self) -> None:
         """Close every port."""
-        for link in (*self.boards, *self.sensors):
+        for link in (*self.boards, *self.sensors, *self.actuators):
             link.connection.close()

@@ -42,14 +42,16 @@ class Rows:
         return Samples(np.array(self.t[start:]), np.array(self.values[start:]))
 
 
-CHANNELS: tuple[str, ...] = ("attitude", "rate", "masses")
+CHANNELS: tuple[str, ...] = ("attitude", "rate", "masses", "devices")
 
 
 class RowBuffer:
     """Rows not taken yet, and which of them were handed on."""
 
-    def __init__(self, masses: Sequence[SlidingMass]) -> None:
+    def __init__(self, masses: Sequence[SlidingMass], devices: Sequence[str] = ()) -> None:
+        """Take the masses, and what a recording calls each device."""
         self._names = tuple(mass.name for mass in masses)
+        self._device_names = tuple(devices)
         self._speed = np.array([mass.speed for mass in masses])
         self._rows = {name: Rows() for name in CHANNELS}
         self._reported = dict.fromkeys(CHANNELS, 0)
@@ -59,6 +61,10 @@ class RowBuffer:
     def row(self, row: Row) -> bool:
         """Take a sensor's row; say whether it is later than the one before and so was kept."""
         return self._append(row.channel, row.t, row.values)
+
+    def devices(self, t: float, values: Floats) -> None:
+        """Take a row of all devices."""
+        self._append("devices", t, values)
 
     def masses(
         self, at: Mapping[str, float], wants: Mapping[str, bool], reported: float | None
@@ -93,7 +99,7 @@ class RowBuffer:
         if not any(parts.values()):
             return None
         self._reported = {name: len(rows.t) for name, rows in self._rows.items()}
-        return _recording(self._names, parts)
+        return self._recording(parts)
 
     def begin(self) -> None:
         """Forget the rows so far; the next answer has a row, however soon it comes."""
@@ -105,7 +111,7 @@ class RowBuffer:
         parts = {name: rows.samples(0) for name, rows in self._rows.items()}
         self._rows = {name: Rows() for name in CHANNELS}
         self._reported = dict.fromkeys(CHANNELS, 0)
-        return _recording(self._names, parts)
+        return self._recording(parts)
 
     def _append(self, channel: str, t: float, values: Floats) -> bool:
         if t <= self._last[channel]:
@@ -115,9 +121,13 @@ class RowBuffer:
         self._rows[channel].values.append(values)
         return True
 
-
-def _recording(names: tuple[str, ...], parts: Mapping[str, Samples | None]) -> Recording:
-    """Return rows by channel as a recording."""
-    return Recording(
-        attitude=parts["attitude"], rate=parts["rate"], mass_names=names, masses=parts["masses"]
-    )
+    def _recording(self, parts: Mapping[str, Samples | None]) -> Recording:
+        """Return rows by channel as a recording."""
+        return Recording(
+            attitude=parts["attitude"],
+            rate=parts["rate"],
+            mass_names=self._names,
+            masses=parts["masses"],
+            device_names=self._device_names if parts["devices"] is not None else (),
+            devices=parts["devices"],
+        )

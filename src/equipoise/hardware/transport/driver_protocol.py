@@ -6,14 +6,14 @@ raises: what cannot be understood is counted.
 """
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TypeVar
 
 from equipoise.hardware.transport.conversation import Tally
 from equipoise.model.errors import BenchStopped, InputError, nearest
-from equipoise.model.hardware import MotorBoard
+from equipoise.model.hardware import ActuatorUnit, MotorBoard
 from equipoise.model.reasons.reason import Reason
 
 
@@ -105,6 +105,106 @@ class BoardDriver(Tally):
     @abstractmethod
     def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal of all masses (m)."""
+
+
+class Activity(StrEnum):
+    """What the electronics of wheels, gyros, coils or jets do now."""
+
+    CONNECTING = "connecting to it"
+    RESTING = "resting"  # no torque; it works as soon as it is driven
+    WORKING = "working"
+    FAULT = "at fault"
+
+
+@dataclass(frozen=True, slots=True)
+class ActuatorState:
+    """What is known of such electronics now."""
+
+    activity: Activity
+    fault: Reason | None = None  # what happened and what to do, at fault
+    inputs: Mapping[str, float] = field(default_factory=dict[str, float])  # those that last, wanted
+
+    @property
+    def sentence(self) -> str:
+        """The fault for people; empty if there is none."""
+        return "" if self.fault is None else self.fault.sentence
+
+    @property
+    def active(self) -> bool:
+        """Say whether any device is given more than nothing."""
+        return self.activity is Activity.WORKING and any(self.inputs.values())
+
+
+@dataclass(frozen=True, slots=True)
+class Counted:
+    """One report: what is counted of each device (``model.devices.Traits``), by name."""
+
+    stamp: float  # s, on the device's clock
+    values: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """Inputs that a device has taken, by name, when that was known."""
+
+    t: float  # s
+    inputs: Mapping[str, float]
+
+
+class ActuatorDriver(Tally):
+    """The conversation with electronics that drive devices; ``state`` is what is known now.
+
+    They come to rest by themselves when nothing reaches them for as long as their deadman allows.
+    """
+
+    def __init__(self, unit: ActuatorUnit) -> None:
+        super().__init__()
+        self._unit, self.state = unit, ActuatorState(Activity.CONNECTING)
+        self.taken: list[Taken] = []  # since somebody took them out
+        self.begun = 0  # how often its clock and its counts began anew
+
+    @abstractmethod
+    def opened(self, t: float) -> None:
+        """Begin anew: the port has just been opened."""
+
+    @abstractmethod
+    def closed(self, why: str) -> None:
+        """Note that the port is gone: a fault."""
+
+    @abstractmethod
+    def feed(self, data: bytes, t: float) -> Sequence[Counted]:
+        """Return the reports that are complete with these bytes."""
+
+    @abstractmethod
+    def due(self, t: float) -> bytes:
+        """Return what to send now; asked at every turn, some hundred times a second."""
+
+    @abstractmethod
+    def rest(self, t: float) -> None:
+        """Let every device rest: no torque, gimbals and jets still, no pulse goes on."""
+
+    @abstractmethod
+    def begin(self, t: float) -> None:
+        """Let every device rest; ends a fault whose cause is gone."""
+
+    def drive(self, inputs: Mapping[str, float], t: float) -> None:
+        """Give devices their inputs, checked before; what is not named goes on as it was.
+
+        Raises BenchStopped while they may not be driven.
+        """
+        if self.state.activity not in (Activity.RESTING, Activity.WORKING):
+            why = self.state.sentence or f"the program is {self.state.activity}"
+            raise BenchStopped(f"actuator {self._unit.name}: {why}")
+        self._give(inputs, t)
+
+    @property
+    def remarks(self) -> list[Reason]:
+        """What the electronics declare that makes them worse than they need be."""
+        return []
+
+    @abstractmethod
+    def _give(self, inputs: Mapping[str, float], t: float) -> None:
+        """Take up inputs."""
 
 
 LEG = 0.25  # s, chosen: what a board does without its computer is over within twice that

@@ -1,4 +1,4 @@
-"""What is connected, motor boards, sensors and limits: their tables, and their records in SI."""
+"""What is connected, boards, sensors, actuators, and limits: tables, and their records in SI."""
 
 from collections.abc import Sequence
 from typing import Annotated, Literal, cast
@@ -90,6 +90,23 @@ class SensorUnit(RecordTable):
         )
 
 
+class ActuatorUnit(RecordTable):
+    """Electronics that drive wheels, gyros, coils or jets."""
+
+    name: Name
+    driver: str = Field(description="device_lines")
+    port: Address = Field(description=ADDRESSES)
+    baud: Baud = 115200
+    drives: Annotated[list[str], Field(min_length=1)] = Field(
+        description="names of the devices of this file, in the order of its outputs"
+    )
+
+    def record(self, where: str) -> model.ActuatorUnit:
+        """Return the unit."""
+        port = record_of(model.Port, self, where, within="port")
+        return record_of(model.ActuatorUnit, self, where, port=port, drives=tuple(self.drives))
+
+
 class Hardware(RecordTable):
     """What is connected, and beyond which limits every motor is stopped."""
 
@@ -104,12 +121,13 @@ class Hardware(RecordTable):
     )
     board: Annotated[list[Board], Holds("boards")] = Field([])
     sensor: Annotated[list[SensorUnit], Holds("sensors")] = Field([])
+    actuator: Annotated[list[ActuatorUnit], Holds("actuators")] = Field([])
 
     def record(self, where: str) -> model.Hardware:
         """Return what is connected; each name and each port must be there once."""
-        names = [each.name for each in (*self.board, *self.sensor)]
-        ports = [each.port for each in (*self.board, *self.sensor)]
-        _check_once(names, where, "'{}'", "a name for each board and sensor")
+        units = (*self.board, *self.sensor, *self.actuator)
+        names, ports = [each.name for each in units], [each.port for each in units]
+        _check_once(names, where, "'{}'", "a name for each board, sensor and actuator")
         _check_once(ports, where, "at {}", "a port for each")
         limits = record_of(model.SafetyLimits, self, where, within="limits")
         return record_of(model.Hardware, self, where, limits=limits)
@@ -130,6 +148,22 @@ def check_moved_masses(boards: Sequence[Board], masses: Sequence[str], source: s
             if axis.mass in moved:
                 raise InputError(where, f"mass '{axis.mass}' twice", "one axis for each mass")
             moved.append(axis.mass)
+
+
+def check_driven_devices(
+    units: Sequence[ActuatorUnit], devices: Sequence[str], source: str
+) -> None:
+    """Raise InputError unless each output drives a device of the file that no other drives."""
+    driven: list[str] = []
+    for i, unit in enumerate(units, 1):
+        where = f"{source}: hardware.actuator[{i}].drives"
+        for name in unit.drives:
+            if name not in devices:
+                known = nearest(name, list(devices)) if devices else "a device of the file first"
+                raise InputError(where, f"device '{name}'", known)
+            if name in driven:
+                raise InputError(where, f"device '{name}' twice", "one output for each device")
+            driven.append(name)
 
 
 def _check_once(words: list[str], where: str, shown: str, wanted: str) -> None:

@@ -7,7 +7,11 @@ from typing import Annotated, Any, cast
 from pydantic import Field
 
 from equipoise.io.testbed import devices
-from equipoise.io.testbed.hardware import Hardware, check_moved_masses
+from equipoise.io.testbed.hardware import (
+    Hardware,
+    check_driven_devices,
+    check_moved_masses,
+)
 from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
 from equipoise.io.testbed.true_surroundings import check_true_lamp, check_true_rows
 from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
@@ -161,6 +165,8 @@ def _check(file: TestbedFile, source: str) -> None:
         check_true_lamp(file.truth.lamp, file.truth.thermal_um_K, file.lamp, f"{source}: truth")
     if file.hardware is not None:
         check_moved_masses(file.hardware.board, masses, source)
+        driven = [device.name for kind in kinds for device in getattr(file, kind)]
+        check_driven_devices(file.hardware.actuator, driven, source)
 
 
 def _check_field(file: TestbedFile, source: str) -> None:

@@ -29,9 +29,16 @@ class Interlock(Code):
         "mass {0} stands at {at:mm .2f} mm and was sent to {goal:mm .2f} mm",
     )
     FAULT = "fault", "board {0}: {1}"
+    DEVICE_FAULT = "device_fault", "actuator {0}: {1}"
+    NOT_FOLLOWING = (
+        "not_following",
+        "device {0} does not follow its inputs: {wanted:.3g} {1} were commanded within "
+        "{seconds:.1f} s, and {counted:.3g} {1} counted",
+    )
+    DEVICE_LIMIT = "device_limit", "device {0} is at {at:.4g} {1}; its limit is {limit:.4g} {1}"
     RECORD_LOST = "record_lost", "{0}"  # who records cannot go on
     NO_ROWS = "no_rows", "no sensor has given a row for {seconds:g} s"
-    NOT_ANSWERING = "not_answering", "not every board answers after {seconds:g} s: {0}"
+    NOT_ANSWERING = "not_answering", "not every device answers after {seconds:g} s: {0}"
     NOT_HOME = "not_home", "the masses do not come home after {seconds:g} s: {0}"
     NOT_STREAMING = "not_streaming", "not every sensor gives rows after {seconds:g} s: {0}"
     NOT_MOVABLE = "not_movable", "masses cannot be moved after {seconds:g} s: {0}"

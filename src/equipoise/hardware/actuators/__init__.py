@@ -1,0 +1,1 @@
+"""Drivers of the electronics of wheels, gyros, coils and jets, one file each."""
