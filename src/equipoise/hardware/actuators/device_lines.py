@@ -36,10 +36,12 @@ from equipoise.model.hardware import ActuatorUnit
 from equipoise.model.reading import Counts
 from equipoise.model.reasons.actuator_faults import ActuatorFault, ActuatorRemark
 from equipoise.model.reasons.reason import Number, Reason
+from equipoise.model.units import MS
 
 BEGINNING = 3.0  # s, attended, chosen: a microcontroller begins anew when its port is opened
 REPEATED = 0.5  # s, chosen: between two questions of the same, who it is and what it has
 STALE = 0.5  # s, attended, chosen: without a report, or an order taken, while it works
+TIRED = 0.5 * 2**32 * MS  # s: by which a clock of 32 bits goes back when it begins anew
 SHOWN = 60  # bytes, chosen: of the last line, for people
 HELLO, HALT, BEAT = checked(f'{{"hello":{VERSION}}}'), checked('{"halt":1}'), checked('{"beat":1}')
 UNASKED = {
@@ -206,11 +208,12 @@ class DeviceLines(ActuatorDriver):
             self._fault(ActuatorFault.REFUSED, f"order {refusal.number}", REFUSALS[refusal.code])
 
     def _reported(self, report: Report, t: float) -> list[Counted]:
-        if report.stamp != self._stamp:  # a device that hangs may say the same for ever
-            self._alive = self._clock.now
-        if report.stamp < self._stamp:
+        if report.stamp <= self._stamp:
+            wrapped = self._stamp - report.stamp > TIRED
+            if (report.mode is not Mode.BEGUN and not wrapped) or report.stamp == self._stamp:
+                return []  # a device that hangs says the same again and again
             self.begun += 1
-        self._stamp = report.stamp
+        self._alive, self._stamp = self._clock.now, report.stamp
         if self.state.activity is Activity.CONNECTING:
             return []
         if self._halting:
