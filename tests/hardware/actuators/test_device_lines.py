@@ -216,3 +216,27 @@ def test_the_conversation_in_words():
     assert answers[-1] == "rests, has taken order 2"
     assert words.received(b"noise\n") == ["something that is not understood"]
     assert words.received(line('{"err":4,"at":9}')) == ["refused: an input is beyond its limit"]
+
+
+def test_a_device_that_says_the_same_lines_for_ever_is_silent():
+    driver = connected(driver_of())
+    driver.drive({"rw_x": 0.001}, 0.1)
+    driver.due(0.1)
+    for k in range(100):
+        t = 0.12 + 0.01 * k
+        driver.feed(line(f'{{"t_ms":{1 + k % 2},"a":1,"m":1,"f":0,"y":[0]}}'), t)
+        driver.due(t)
+    assert driver.state.fault.code in (ActuatorFault.SILENT, ActuatorFault.LATE)
+
+
+def test_a_clock_of_32_bits_that_begins_anew_is_no_silence():
+    driver = connected(driver_of())
+    driver.drive({"rw_x": 0.001}, 0.1)
+    driver.due(0.1)
+    begun = driver.begun
+    for k in range(200):
+        t, clock = 0.12 + 0.01 * k, (2**32 - 500 + 10 * k) % 2**32
+        driver.feed(line(f'{{"t_ms":{clock},"a":{1 if k < 5 else 2},"m":1,"f":0,"y":[0]}}'), t)
+        driver.due(t)
+    assert driver.state.activity == "working"
+    assert driver.begun == begun + 1

@@ -36,10 +36,12 @@ from equipoise.model.hardware import ActuatorUnit
 from equipoise.model.reading import Counts
 from equipoise.model.reasons.actuator_faults import ActuatorFault, ActuatorRemark
 from equipoise.model.reasons.reason import Number, Reason
+from equipoise.model.units import MS
 
 BEGINNING = 3.0  # s, attended, chosen: a microcontroller begins anew when its port is opened
 REPEATED = 0.5  # s, chosen: between two questions of the same, who it is and what it has
 STALE = 0.5  # s, attended, chosen: without a report, or an order taken, while it works
+TIRED = 0.5 * 2**32 * MS  # s: by which a clock of 32 bits goes back when it begins anew
 SHOWN = 60  # bytes, chosen: of the last line, for people
 HELLO, HALT, BEAT = checked(f'{{"hello":{VERSION}}}'), checked('{"halt":1}'), checked('{"beat":1}')
 UNASKED = {
@@ -82,7 +84,7 @@ class DeviceLines(ActuatorDriver):
             self.count(good=message is not None, corrupt=plain is None,
                        foreign=plain is not None and message is None)  # fmt: skip
             if isinstance(message, Report) and len(message.counted) == len(self._devices):
-                found += self._reported(message, t)
+                found += self._reported(message)
             elif isinstance(message, Hello):
                 self._greeted(message)
             elif isinstance(message, Description):
@@ -106,7 +108,6 @@ class DeviceLines(ActuatorDriver):
         if self.state.activity is Activity.WORKING:
             self._halt()
             self.state = ActuatorState(Activity.RESTING)
-            self.taken.append(Taken(t, dict.fromkeys(self._unit.drives, 0.0)))
 
     def begin(self, t: float) -> None:
         """Let every device rest, and ask anew who it is."""
@@ -205,32 +206,42 @@ class DeviceLines(ActuatorDriver):
         if working and refusal.number and refusal.code in (2, 3, 4):
             self._fault(ActuatorFault.REFUSED, f"order {refusal.number}", REFUSALS[refusal.code])
 
-    def _reported(self, report: Report, t: float) -> list[Counted]:
-        if report.stamp != self._stamp:  # a device that hangs may say the same for ever
-            self._alive = self._clock.now
-        if report.stamp < self._stamp:
-            self.begun += 1
-        self._stamp = report.stamp
+    def _reported(self, report: Report) -> list[Counted]:
+        if not self._advanced(report):
+            return []
         if self.state.activity is Activity.CONNECTING:
             return []
         if self._halting:
             self._halting = report.mode is Mode.WORKING
+            if not self._halting:
+                rest = dict.fromkeys(self._unit.drives, 0.0)
+                self.taken.append(Taken(report.stamp, rest))
         elif report.fault and self.state.activity is not Activity.FAULT:
             self._fault(ActuatorFault.OWN_FAULT, number=report.fault)
         elif self.state.activity is Activity.WORKING:
-            self._worked(report, t)
+            self._worked(report)
         elif report.mode is Mode.WORKING:
             self._halt()
         return [Counted(report.stamp, dict(zip(self._unit.drives, report.counted, strict=True)))]
 
-    def _worked(self, report: Report, t: float) -> None:
+    def _advanced(self, report: Report) -> bool:
+        """Say whether a report is a new one; a device that hangs says the same again and again."""
+        if report.stamp <= self._stamp:
+            wrapped = self._stamp - report.stamp > TIRED
+            if report.stamp == self._stamp or not (report.mode is Mode.BEGUN or wrapped):
+                return False
+            self.begun += 1
+        self._alive, self._stamp = self._clock.now, report.stamp
+        return True
+
+    def _worked(self, report: Report) -> None:
         """Note what was taken; a device that rests though it was armed is at fault."""
         if self._armed and report.mode is not Mode.WORKING:
             self._fault(UNASKED[report.mode], allowed=self._deadman)
         elif report.mode is Mode.WORKING:
             order = self._orders.taken(report.taken)
             if order is not None and order.inputs:
-                self.taken.append(Taken(self._clock.arrival(t), order.inputs))
+                self.taken.append(Taken(report.stamp, order.inputs))
             self._armed = self._armed or order is not None
 
     # --- Beginning and fault -----------------------------------------------------------------

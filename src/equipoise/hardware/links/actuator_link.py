@@ -1,6 +1,6 @@
 """An actuator and its port: reports on the bench's clock, and whether its devices follow."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from equipoise.hardware.links.clock_sync import DeviceClock, learnt, to_bench
@@ -85,14 +85,20 @@ class ActuatorLink:
         return Report(when, tuple(counted.values[name] for name in self.unit.drives))
 
     def _follow(self, reports: Sequence[Report]) -> None:
-        """Compare what devices were given with what they count, in the order of time."""
+        """Compare what devices were given with what they count, both by the device's clock."""
         taken, self.driver.taken = self.driver.taken, []
+        given = [(to_bench(self._clock, each.stamp), each.inputs) for each in taken]
         for report in reports:
             for name, value in zip(self.unit.drives, report.values, strict=True):
                 self._following[name].reported(report.t, value)
-        for each in taken:
-            for name, value in each.inputs.items():
-                self._following[name].given(each.t, value)
+            self._give([each for each in given if each[0] <= report.t])
+            given = [each for each in given if each[0] > report.t]
+        self._give(given)
+
+    def _give(self, given: Sequence[tuple[float, Mapping[str, float]]]) -> None:
+        for t, inputs in given:
+            for name, value in inputs.items():
+                self._following[name].given(t, value)
 
     def _forget(self) -> None:
         for each in self._following.values():

@@ -145,9 +145,9 @@ class Counted:
 
 @dataclass(frozen=True, slots=True)
 class Taken:
-    """Inputs that a device has taken, by name, when that was known."""
+    """Inputs that a device has taken, by name, and when its reports first show it."""
 
-    t: float  # s
+    stamp: float  # s, on the device's clock
     inputs: Mapping[str, float]
 
 
