@@ -186,7 +186,7 @@ def step_shift(mass: SlidingMass) -> float:
     return mass.mass * math.hypot(mass.resolution / math.sqrt(12), mass.accuracy)
 
 
-# Of table 1: layout, kg, last digit of the gyro in deg/s, N m reached, um reached; None: not printed.
+# Of table 1: layout, kg, last digit of the gyro in deg/s, N m or um reached; None: not printed.
 TABLE_1 = {
     "georgia-tech": ("table-top", None, 0.073, None, None),
     "cubesat-tas": ("spherical-rotor", 4.2, 0.05, None, None),
@@ -241,7 +241,7 @@ def test_unam_and_honeywell_have_what_else_is_printed() -> None:
 
 
 def test_masses_of_harbin_make_a_pyramid_and_vietnams_are_coarse_and_fine() -> None:
-    """Four rails at one angle to the vertical, the sum of their axes along it; two sets of three."""
+    """Four rails at one angle to the vertical, their sum along it; two sets of three."""
     rails = np.array([mass.axis for mass in read_preset("harbin").masses])
     np.testing.assert_allclose(rails.sum(axis=0), [0, 0, 4 * rails[0, 2]], atol=1e-12)
     assert np.linalg.matrix_rank(rails) == 3
