@@ -1,23 +1,17 @@
 """The thirteen testbeds of the review's table 1, balanced by their methods and by ours."""
 
 from collections.abc import Sequence
+from itertools import islice
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.study.papers.paper_row import PaperRow
-from equipoise.study.papers.table1 import TABLE1, Entry, Left, Trial
+from equipoise.study.papers.table1 import TABLE1, Entry, Left, trials_of
 from equipoise.study.papers.table1_rows import WANTED, rows_of, share_reached
 from equipoise.study.papers.table1_run import left_by
 from verification.chance import fewest
 from verification.result import Result, Row, Spread, at_least, in_turn
 
 STATED = 100  # platforms of each testbed
-
-
-def trials_of(entry: Entry, seeds: Sequence[int]) -> list[Trial]:
-    """Return every platform of an entry by its own method, then by ours."""
-    bed = read_preset(entry.preset)
-    ways = (entry.own, entry.best)
-    return [Trial(entry, way, bed, 1 + seed) for way in ways for seed in seeds]
 
 
 def shown(row: PaperRow) -> Row:
@@ -42,12 +36,13 @@ def measure(
     seeds: Sequence[int], spread: Spread = in_turn, entries: Sequence[Entry] = TABLE1
 ) -> Result:
     """Balance every testbed's platforms of some seeds."""
-    trials = [trials_of(entry, seeds) for entry in entries]
-    found = spread(left_by, [trial for each in trials for trial in each])
+    numbers = [1 + seed for seed in seeds]
+    trials = [trials_of(entry, read_preset(entry.preset), numbers) for entry in entries]
+    found = iter(spread(left_by, [trial for each in trials for trial in each]))
     rows, n = list[Row](), len(seeds)
-    for k, entry in enumerate(entries):
-        own, best = (found[(2 * k + i) * n : (2 * k + i + 1) * n] for i in (0, 1))
-        rows += entry_rows(entry, own, best)
+    for entry, each in zip(entries, trials, strict=True):
+        left = list(islice(found, len(each)))
+        rows += entry_rows(entry, left[:-n], left[-n:])
     claim = (
         f"The thirteen testbeds of table 1 of da Silva et al. (2021), {n} platforms each, target "
         "(0, 0, 0): what the method that the table names leaves as it is run here, and what ours "

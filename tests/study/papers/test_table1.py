@@ -13,7 +13,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.procedure.balancing.catalogue import CARDS
 from equipoise.procedure.balancing.run_law import lacking
 from equipoise.study.papers.paper_row import Agreement
-from equipoise.study.papers.table1 import TABLE1, Left, Procedure, Trial
+from equipoise.study.papers.table1 import TABLE1, Left, Procedure, Trial, trials_of
 from equipoise.study.papers.table1_rows import row_of, rows_of, share_reached, values_of
 from equipoise.study.papers.table1_run import left_by, torque_of, turned
 
@@ -81,6 +81,14 @@ def test_where_nothing_is_printed_ours_is_shown_once_by_hand():
     assert row.ours == pytest.approx((1.0, 1.0))
     knt = BY_NAME["knt"]
     assert len(rows_of(knt, [left()], [left()])) == 2
+
+
+def test_platforms_go_through_their_own_method_first_and_through_one_by_hand():
+    found = trials_of(UNB, read_preset("unb"), [3, 4])
+    assert [(t.procedure, t.seed) for t in found] == [
+        (UNB.own, 3), (UNB.own, 4), (UNB.best, 3), (UNB.best, 4),
+    ]  # fmt: skip
+    assert [t.seed for t in trials_of(SYDNEY, read_preset("sydney"), [3, 4])] == [3, 4]
 
 
 def test_sydney_counts_the_torque_at_level_and_others_within_twenty_degrees():

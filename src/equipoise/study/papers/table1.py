@@ -13,6 +13,7 @@ A preset's numbers are printed in the review where it says so. The others are as
 result that is printed is within reach: a row shows what methods do, and not what hardware did.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -80,6 +81,10 @@ class Left:
 
 
 LSM = Procedure("compensation", "simplified_increments")
+FEW_ROWS = (
+    "500 rows show the height of a nearly balanced platform to some um, and nobody levels it "
+    "before the next"
+)
 TWO_STEPS = Procedure("law", "underactuated")
 OURS = Procedure("law", "measure_and_move")
 PLACING = Procedure("placing")
@@ -90,12 +95,12 @@ TABLE1 = (
           Procedure("feed_forward", "trajectory")),
     Entry("cubesat-tas", "Naval Postgraduate School", "two-step", TWO_STEPS, OURS),
     Entry("unb", "University of Brasilia", "LSM, iterative CM compensation", LSM, OURS,
-          Reached("torque", 3.5e-5), (0.3, 0.3, 0.5)),
+          Reached("torque", 3.5e-5), (0.3, 0.3, 0.5), cause=FEW_ROWS),
     Entry("bologna", "University of Bologna", "two-step, iterative CM compensation", TWO_STEPS,
           OURS, Reached("torque", 5e-5), (0.4, 0.4, 0.8)),
     Entry("florida", "University of Florida", "manual", PLACING, PLACING),
     Entry("harbin", "Harbin Institute of Technology", "LSM, iterative CM compensation", LSM, OURS,
-          Reached("offset", 5e-6)),
+          Reached("offset", 5e-6), cause=FEW_ROWS),
     Entry("unam", "UNAM", "LSM", LSM, OURS, Reached("torque", 2e-3)),
     Entry("honeywell", "Honeywell", "LSM", LSM, OURS, Reached("offset", 60.96e-6),
           (25.0, 25.0, 30.0)),
@@ -104,8 +109,17 @@ TABLE1 = (
     Entry("virginia-tech", "Virginia Tech", "LSM",
           Procedure("compensation", "momentum_body", INERTIA), OURS),
     Entry("vietnam", "Vietnam NSC", "adaptive estimation, L1 adaptive control",
-          Procedure("law", "l1_adaptive"), OURS, Reached("offset", 5e-7), (0.25, 0.25, 0.3)),
+          Procedure("law", "l1_adaptive"), OURS, Reached("offset", 5e-7), (0.3, 0.3, 0.4)),
     Entry("sydney", "University of Sydney", "manual, x and y only", PLACING, PLACING,
           tolerance=(2.0, 2.0, 1e5), tilt=0.0),
     Entry("aalto", "Aalto University", "manual", PLACING, PLACING),
 )  # fmt: skip
+
+
+def trials_of(entry: Entry, testbed: Testbed, seeds: Sequence[int]) -> list[Trial]:
+    """Return all platforms of an entry by its own method, then all by ours; by hand these are one.
+
+    ``testbed`` is that of the entry's preset.
+    """
+    ways = (entry.own, entry.best) if entry.own != entry.best else (entry.best,)
+    return [Trial(entry, way, testbed, seed) for way in ways for seed in seeds]
