@@ -10,6 +10,7 @@ from equipoise.study.papers.table1 import Entry, Left, Procedure
 
 WANTED = 0.9  # of the platforms, chosen: on which our best leaves no more than is printed
 NEAR = 2.0  # chosen: a median that is within so many times of one printed number agrees with it
+DIGITS = 9  # chosen: what a number in SI had before it was divided by its unit
 WAYS = {
     "law": "{name}",
     "compensation": "moves by {name}",
@@ -29,7 +30,8 @@ def printed_of(entry: Entry) -> tuple[float, ...]:
     """Return what is printed, in the table's unit."""
     if entry.reached is None:
         return ()
-    return (entry.reached.value / (UM if entry.reached.kind == "offset" else UN_M),)
+    unit = UM if entry.reached.kind == "offset" else UN_M
+    return (round(entry.reached.value / unit, DIGITS),)
 
 
 def unit_of(entry: Entry) -> str:
@@ -40,11 +42,9 @@ def unit_of(entry: Entry) -> str:
 def share_reached(entry: Entry, runs: Sequence[Left]) -> float:
     """Return on how many of the platforms no more is left than is printed; 1 if nothing is."""
     printed = printed_of(entry)
-    return (
-        float(np.mean([value <= printed[0] for value in values_of(entry, runs)]))
-        if printed
-        else 1.0
-    )
+    if not printed:
+        return 1.0
+    return float(np.mean([value <= printed[0] for value in values_of(entry, runs)]))
 
 
 def named(procedure: Procedure) -> str:
