@@ -6,6 +6,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
@@ -45,6 +46,8 @@ PLUMB_SD = math.radians(0.3)  # chosen: a camera levelled by eye, or a floor for
 CLOCK_SD = 1e-4  # relative, chosen: a crystal
 AT_STOP = 0.98  # of the tilt limit, chosen: 0.6 deg of 30, three times a camera's noise
 LAG_SD = 0.03  # s, chosen: a soft servo's 25 ms, or a row of a log at 50 Hz
+# How a platform sits on its bearing (da Silva et al. 2021, table 1).
+Layout = Literal["table-top", "umbrella", "dumbbell", "spherical-rotor"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,6 +212,7 @@ class Testbed(Shown):
     # of J_P (xx yy zz xy xz yz, kg m^2) and com (m), masses at home; not of a file: as a balancing
     # by hand has found them; None: independent, as the sds above say
     body_covariance: Square | None = None
+    layout: Layout = "table-top"  # how it sits on its bearing: what a picture shows
 
     @property
     def weight(self) -> float:

@@ -9,7 +9,7 @@
 The law, and the verdict it ends with, know none of this.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +18,7 @@ from equipoise.control.laws.follow import shift_at
 from equipoise.dynamics.sag_trim import downs, residual_torque
 from equipoise.maths.linalg import skew
 from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.bench import Bench
 from equipoise.model.following import Following
 from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording, Samples
@@ -115,11 +116,15 @@ def ran_out(step: Step) -> bool:
 
 def law_run(task: Task) -> LawRun:
     """Return what one run comes to."""
+    return judged_run(task, lambda bench: balanced_by(task.law, bench, task.options, task.max_time))
+
+
+def judged_run(task: Task, balancing: Callable[[Bench], Iterator[Step]]) -> LawRun:
+    """Return what a way to balance comes to; ``task.law`` is its name."""
     bench = CountedBench(task.testbed, task.seed)
     before = rms_torque(bench, task.tilt)
-    steps: Iterator[Step] = balanced_by(task.law, bench, task.options, task.max_time)
     verdict, following, late = Verdict(()), None, False
-    for step in steps:
+    for step in balancing(bench):
         late = late or ran_out(step)
         verdict, following = step.verdict or verdict, step.following or following
     return LawRun(

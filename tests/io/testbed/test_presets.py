@@ -11,6 +11,7 @@ from equipoise.io.testbed.presets import preset_names, preset_text, read_preset
 from equipoise.io.testbed.testbed_file import parse_testbed, text_of_testbed
 from equipoise.maths.attitude import from_euler321, tilt, to_matrix
 from equipoise.model.errors import InputError
+from equipoise.model.testbed import SlidingMass
 from equipoise.simulation.draw_truth import coefficients, draw_truth
 
 
@@ -67,6 +68,7 @@ def test_every_preset_written_and_read_again_is_the_same(name: str) -> None:
     again = parse_testbed(text_of_testbed(first), "t")
     assert again.device_names == first.device_names
     assert again.mass_names == first.mass_names
+    assert again.layout == first.layout
     assert len(again.assumed) == len(first.assumed)
     np.testing.assert_allclose(again.body.inertia_P, first.body.inertia_P, rtol=1e-14, atol=1e-16)
 
@@ -177,6 +179,83 @@ def test_unb_has_the_published_mass_inertia_and_gravity() -> None:
     assert [m.speed for m in testbed.masses] == pytest.approx([0.001] * 3)
     assert testbed.gyro is not None
     assert math.degrees(testbed.gyro.quantum) == pytest.approx(0.05)
+
+
+def step_shift(mass: SlidingMass) -> float:
+    """Return what a step and the error of its stop are together, kg m, one sd."""
+    return mass.mass * math.hypot(mass.resolution / math.sqrt(12), mass.accuracy)
+
+
+# Of table 1: layout, kg, last digit of the gyro in deg/s, N m or um reached; None: not printed.
+TABLE_1 = {
+    "georgia-tech": ("table-top", None, 0.073, None, None),
+    "cubesat-tas": ("spherical-rotor", 4.2, 0.05, None, None),
+    "unb": ("table-top", 14.307, 0.05, 3.5e-5, None),
+    "bologna": ("table-top", 11.5, 0.004, 5e-5, None),
+    "florida": ("table-top", None, None, None, None),
+    "harbin": ("table-top", None, 0.04, None, 5.0),
+    "unam": ("table-top", 35.0, 0.05, 2e-3, None),
+    "honeywell": ("umbrella", None, None, None, 60.96),
+    "knt": ("dumbbell", None, 0.25, None, None),
+    "virginia-tech": ("table-top", None, None, None, None),
+    "vietnam": ("table-top", None, None, None, 0.5),
+    "sydney": ("table-top", None, 0.05, None, None),
+    "aalto": ("spherical-rotor", None, None, None, None),
+}
+
+
+@pytest.mark.parametrize("name", TABLE_1)
+def test_a_preset_of_table_1_has_what_the_review_prints(name: str) -> None:
+    """Layout, mass and gyro; what is not printed is listed as assumed."""
+    layout, mass, digit, _, _ = TABLE_1[name]
+    bed = read_preset(name)
+    assert bed.layout == layout
+    if mass is None:
+        assert "platform.mass_kg" in bed.assumed
+    else:
+        assert bed.body.mass == mass
+    if digit is not None:
+        assert bed.gyro is not None
+        assert math.degrees(bed.gyro.quantum) == pytest.approx(digit)
+    assert bool(bed.masses) != bool(bed.weights or bed.cmgs)
+
+
+@pytest.mark.parametrize("name", [name for name, row in TABLE_1.items() if any(row[3:])])
+def test_a_preset_of_table_1_can_reach_what_was_reached(name: str) -> None:
+    """Each finest mass errs by at most a third of it, by step and stop together."""
+    *_, torque, offset = TABLE_1[name]
+    bed = read_preset(name)
+    wanted = torque / bed.gravity if torque else 1e-6 * offset * bed.body.mass
+    fine = bed.masses[-3:]
+    assert all(step_shift(mass) < wanted / 3 for mass in fine)
+
+
+def test_unam_and_honeywell_have_what_else_is_printed() -> None:
+    """Ivanov's introduction: a roll of 50 deg, coils, flywheels; 0.01 deg/sqrt(hr) over 60."""
+    unam, gyro = read_preset("unam"), read_preset("honeywell").gyro
+    assert math.degrees(unam.tilt_limit) == pytest.approx(50.0)
+    assert len(unam.wheels) == len(unam.magnetorquers) == 3
+    assert gyro is not None
+    density = math.degrees(gyro.noise) / math.sqrt(gyro.rate)
+    assert density * 60 == pytest.approx(0.01, rel=1e-3)
+
+
+def test_masses_of_harbin_make_a_pyramid_and_vietnams_are_coarse_and_fine() -> None:
+    """Four rails at one angle to the vertical, their sum along it; two sets of three."""
+    rails = np.array([mass.axis for mass in read_preset("harbin").masses])
+    np.testing.assert_allclose(rails.sum(axis=0), [0, 0, 4 * rails[0, 2]], atol=1e-12)
+    assert np.linalg.matrix_rank(rails) == 3
+    masses = read_preset("vietnam").masses
+    assert [m.name for m in masses] == [f"{s}_{a}" for s in ("coarse", "fine") for a in "xyz"]
+    assert all(c.mass == 10 * f.mass for c, f in zip(masses[:3], masses[3:], strict=True))
+
+
+def test_the_layout_is_a_table_top_where_none_is_stated() -> None:
+    """And another kind than the four is refused."""
+    assert read_preset("sputnix").layout == "table-top"
+    text = preset_text("knt").replace('"dumbbell"', '"barbell"', 1)
+    with pytest.raises(InputError, match="layout"):
+        parse_testbed(text, "t")
 
 
 def test_cubesat_tas_has_what_the_review_prints() -> None:

@@ -35,6 +35,12 @@ STANDS_OUT = 10.0  # times the other components, for its axis to be the vertical
 class Platform(RecordTable):
     """Everything that floats, with the sliding masses at home."""
 
+    layout: model.Layout = Field(
+        "table-top",
+        description="table-top: a deck on a half ball; umbrella: a canopy on a post; dumbbell: two "
+        "decks at the ends of a level shaft; spherical-rotor: a sphere in a cup. A picture shows "
+        "it; how far it may turn is stated by tilt_limit_deg",
+    )
     mass_kg: Annotated[Positive, Holds("body.mass")]
     inertia_kg_m2: Annotated[Inertia, Holds("body.inertia_P")] = Field(
         description="three moments, or a tensor of three rows; products are minus the integrals"

@@ -26,6 +26,7 @@ def about(station: Station, clock: int, session: str) -> Document:
     return {
         "kind": "about", "clock": clock, "session": session, "title": station.title,
         "bench": station.kind, "up": bed.up.tolist(), "tilt_limit": bed.tilt_limit,
+        "layout": bed.layout,
         "gravity": bed.gravity, "masses": masses, "wheels": wheels,
         "series": [series.document() for series in series_of(bed)],
     }  # fmt: skip

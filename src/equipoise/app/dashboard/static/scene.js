@@ -68,7 +68,7 @@ class View {
     this.platform = new Platform(this.store.about, colours);
     this.balance = new Balance(this.platform.radius, colours);
     this.platform.group.add(this.balance.inBody);
-    this.contents = [room(this.platform.radius, colours), this.platform.group, this.balance.inRoom];
+    this.contents = [room(this.platform.radius, this.store.about.layout, colours), this.platform.group, this.balance.inRoom];
     this.scene.add(...this.contents);
     this.orbit.reach(this.platform.radius);
     this.request();

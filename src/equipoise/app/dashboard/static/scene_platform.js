@@ -1,6 +1,7 @@
 /** The platform: its body and axes, its masses on their rails, its wheels. Body axes. */
 
 import * as THREE from "./vendor/three.module.js";
+import { bodyOf } from "./scene_layouts.js";
 import { along, arrow, label, lines, solid } from "./scene_makings.js";
 
 const SMALLEST = 0.15; // m, radius of a platform whose masses have no stated places
@@ -21,17 +22,7 @@ export class Platform {
   }
 
   body(colours) {
-    const r = this.radius;
-    const disc = solid(new THREE.CylinderGeometry(r, r, 0.1 * r, 48), colours.body, 0.38);
-    const rim = new THREE.LineSegments(
-      new THREE.EdgesGeometry(disc.geometry, 30),
-      new THREE.LineBasicMaterial({ color: colours.quiet }),
-    );
-    const half = [0, 2 * Math.PI, Math.PI / 2, Math.PI / 2];
-    const ball = solid(new THREE.SphereGeometry(0.19 * r, 28, 14, ...half), colours.body, 0.75);
-    const upright = new THREE.Group().add(disc, rim, ball);
-    upright.rotation.x = Math.PI / 2;
-    return along(new THREE.Group().add(upright), this.about.up);
+    return along(bodyOf(this.about.layout, this.radius, colours), this.about.up);
   }
 
   axes(colours) {

@@ -1,15 +1,20 @@
 /** What stands still: floor, pedestal with the bearing's cup, the centre of rotation, up. */
 
 import * as THREE from "./vendor/three.module.js";
+import { cupOf } from "./scene_layouts.js";
 import { arrow, label, lines, solid } from "./scene_makings.js";
 
 const FLOOR = -1.25; // of the platform's radius, below the centre of rotation
 const CELLS = 8; // of the floor's grid, from its middle to each side
 
-/** @param {number} radius  m, of the platform @returns {THREE.Group} laboratory axes, z up */
-export function room(radius, colours) {
+/**
+ * @param {number} radius  m, of the platform
+ * @param {string} layout  as `about` has it
+ * @returns {THREE.Group} laboratory axes, z up
+ */
+export function room(radius, layout, colours) {
   const group = new THREE.Group();
-  group.add(floor(radius, colours), pedestal(radius, colours));
+  group.add(floor(radius, colours), pedestal(radius, cupOf(layout), colours));
   const up = arrow(0.5 * radius, colours.quiet);
   const word = label("up", colours.quiet, 0.17 * radius);
   up.position.set(-1.3 * radius, -0.95 * radius, FLOOR * radius); // to the left, in the first view
@@ -29,11 +34,11 @@ function floor(radius, colours) {
   return grid;
 }
 
-function pedestal(radius, colours) {
-  const ball = 0.2 * radius; // the platform's half ball sits in the cup
-  const top = -0.12 * radius;
-  const height = top - FLOOR * radius;
-  const column = solid(new THREE.CylinderGeometry(ball, 0.34 * radius, height, 28), colours.metal);
+/** Its top is the cup, in which the platform sits. */
+function pedestal(radius, cup, colours) {
+  const height = (cup.top - FLOOR) * radius;
+  const foot = Math.max(0.34, cup.ball) * radius;
+  const column = solid(new THREE.CylinderGeometry(cup.ball * radius, foot, height, 28), colours.metal);
   column.rotation.x = Math.PI / 2;
   column.position.z = FLOOR * radius + height / 2;
   return new THREE.Group().add(column);
