@@ -1,13 +1,12 @@
 """The thirteen testbeds of the review's table 1, balanced by their methods and by ours."""
 
 from collections.abc import Sequence
-from itertools import islice
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.study.papers.paper_row import PaperRow
-from equipoise.study.papers.table1 import TABLE1, Entry, Left, trials_of
+from equipoise.study.papers.table1 import TABLE1, Entry, Left
 from equipoise.study.papers.table1_rows import WANTED, rows_of, share_reached
-from equipoise.study.papers.table1_run import left_by
+from equipoise.study.papers.table1_run import table1_runs
 from verification.chance import fewest
 from verification.result import Result, Row, Spread, at_least, in_turn
 
@@ -37,12 +36,9 @@ def measure(
 ) -> Result:
     """Balance every testbed's platforms of some seeds."""
     numbers = [1 + seed for seed in seeds]
-    trials = [trials_of(entry, read_preset(entry.preset), numbers) for entry in entries]
-    found = iter(spread(left_by, [trial for each in trials for trial in each]))
-    rows, n = list[Row](), len(seeds)
-    for entry, each in zip(entries, trials, strict=True):
-        left = list(islice(found, len(each)))
-        rows += entry_rows(entry, left[:-n], left[-n:])
+    beds = {entry.preset: read_preset(entry.preset) for entry in entries}
+    runs = table1_runs(beds, entries, numbers, spread)
+    rows, n = [row for run in runs for row in entry_rows(*run)], len(seeds)
     claim = (
         f"The thirteen testbeds of table 1 of da Silva et al. (2021), {n} platforms each, target "
         "(0, 0, 0): what the method that the table names leaves as it is run here, and what ours "

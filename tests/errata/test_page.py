@@ -5,6 +5,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "errata.md"
+ITEMS = ROOT / "src" / "equipoise" / "study" / "papers" / "items.py"  # has numbers of its own
 
 
 def entries():
@@ -23,6 +24,8 @@ def cited():
     """Return number and file of every erratum that a source or another page cites."""
     files = [*(ROOT / "src").rglob("*.py"), *(p for p in (ROOT / "docs").glob("*.md") if p != PAGE)]
     for path in files:
+        if path == ITEMS:
+            continue
         for found in re.findall(r"\b[IRL]\d{1,2}(?:-[IRL]\d{1,2})?\b", path.read_text("utf-8")):
             yield from ((number, path.name) for number in spelled(found))
 

@@ -104,7 +104,7 @@ def test_scatter_is_the_distance_of_the_quartiles():
     np.testing.assert_allclose(row.ours, np.abs(first - second) / 2 / UM, rtol=1e-9)
 
 
-def test_the_move_is_seen_whether_it_is_fed_forward_or_not():
+def test_the_move_shows_whether_it_is_fed_forward_or_not():
     """15.6 g of 14.24 kg: 10 mm are 10.96 um and 50 mm 54.8 um."""
     rows = {row.quantity: row for row in tracking_rows(tracked())}
     computed = rows["shift that the move is computed to make"]

@@ -249,7 +249,8 @@ class DeviceLines(ActuatorDriver):
     def _begin(self) -> None:
         self._orders.clear()
         self.state = ActuatorState(Activity.CONNECTING)
-        self._next, self._sent, self._stamp = -1, float("-inf"), -1.0
+        self._next, self._sent = -1, float("-inf")
+        self._stamp: float = -1.0
         self._alive = self._since = self._halted = self._clock.now
         self._armed = self._halting = False
         self._received, self._spinning = "", tuple[str, ...]()

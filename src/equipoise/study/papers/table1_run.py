@@ -3,7 +3,9 @@
 Torque is root mean square over directions within a tilt of level, as in ``study.law_run``.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
@@ -25,7 +28,7 @@ from equipoise.simulation.hands import SimulatedHands
 from equipoise.study.law_run import Task, judged_run, law_run
 from equipoise.study.papers.compensation import compensation
 from equipoise.study.papers.gyro_slew import slewed
-from equipoise.study.papers.table1 import Left, Trial, Way
+from equipoise.study.papers.table1 import Entry, Left, Trial, Way, trials_of
 
 LONGEST = 1200.0  # s on the bench's clock, chosen: an adaptive law takes a quarter of an hour
 SHORT = 600.0  # s, chosen: of measure_and_move
@@ -36,6 +39,15 @@ SLEW = 60.0  # s, chosen: until the platform rests
 FREQUENCY, DAMPING, INTEGRAL = 0.3, 0.7, 0.05  # rad/s, -, rad/s, chosen: of a slew
 MOST = 0.05  # N m, chosen: twice the torque of an offset that a person leaves on a large table
 NO_SAG = np.zeros((3, 3))
+Spread = Callable[[Callable[[Any], Any], Sequence[Any]], Iterable[Any]]
+
+
+class Ran(NamedTuple):
+    """What an entry's own method left of each platform, and ours; by hand these are one."""
+
+    entry: Entry
+    own: Sequence[Left]
+    best: Sequence[Left]
 
 
 def task_of(trial: Trial) -> Task:
@@ -116,3 +128,16 @@ RUNS: dict[Way, Callable[[Trial], Left]] = {
 def left_by(trial: Trial) -> Left:
     """Return what one run leaves; InputError where a procedure does not run on the testbed."""
     return RUNS[trial.procedure.way](trial)
+
+
+def table1_runs(
+    beds: Mapping[str, Testbed], entries: Sequence[Entry], seeds: Sequence[int], spread: Spread
+) -> list[Ran]:
+    """Return all platforms of some entries; ``beds``: the testbeds of the presets, by name."""
+    trials = [trials_of(entry, beds[entry.preset], seeds) for entry in entries]
+    found = iter(spread(left_by, [trial for each in trials for trial in each]))
+    ran, n = list[Ran](), len(seeds)
+    for entry, each in zip(entries, trials, strict=True):
+        left = list(islice(found, len(each)))
+        ran.append(Ran(entry, left[:-n], left[-n:]))
+    return ran
