@@ -5,67 +5,35 @@ more than so many um of it; what a platform needs in all is known from its truth
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.io.testbed.presets import read_preset
-from equipoise.model.testbed import Testbed
 from equipoise.model.units import MINUTE, UM
 from equipoise.model.verdict import VerdictOutcome
-from equipoise.simulation.bench import SimulatedBench
-from verification.drift import HOLD, HOLDING, LIMIT, TERMS, Array, Run, note_of, watched_hold
+from equipoise.study.papers.ivanov_balancing import SPEEDS
+from equipoise.study.papers.ivanov_hold import Held, HoldTrial, held_while_drifting
+from verification.drift import HOLD, LIMIT, note_of
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
-SLOWEST, FASTEST = 1 * UM / MINUTE, 4 * UM / MINUTE  # m/s
+SLOWEST, FASTEST = SPEEDS  # m/s
 SHARE, FALSE = 0.95, 0.025
 PASSED = VerdictOutcome.PASSED
 
 
-def drift_of(seed: int) -> Array:
-    """Return how fast the centre of mass of a platform drifts, m/s."""
-    rng = np.random.default_rng([seed, 2])
-    way = rng.normal(size=3)
-    return rng.uniform(SLOWEST, FASTEST) * way / np.linalg.norm(way)
-
-
-def drifting(seed: int) -> Testbed:
-    """Return the preset, which declares no drift, with a truth that has one."""
-    testbed = read_preset("sputnix")
-    drift = dict(zip(TERMS, drift_of(seed), strict=True))
-    return replace(testbed, truth=replace(testbed.truth, torque=drift))
-
-
-def within_reach(seed: int, until: float) -> bool:
-    """Say whether the masses can hold the target up to a time (s), by their rails and the truth."""
-    testbed = drifting(seed)
-    maps, ends = mass_maps(testbed.masses), np.array([m.travel[1] for m in testbed.masses])
-    reach = ends @ np.abs(maps.first_moment) / testbed.body.mass
-    first = SimulatedBench(testbed, seed).truth().com
-    needed = HOLDING.target - first - until * drift_of(seed)
-    return bool(np.all(np.abs(needed) <= reach))
-
-
-def held(hold: float, seed: int) -> Run:
+def held(hold: float, seed: int) -> Held:
     """Balance and hold the platform of one seed for so long (s)."""
-    return watched_hold(drifting(seed), hold, seed)
-
-
-def passes_falsely(run: Run) -> bool:
-    """Say whether balancing or hold passed a platform that was outside the tolerance."""
-    outside = bool(np.any(np.abs(run.start) > LIMIT))
-    return (run.balanced is PASSED and outside) or (run.outcome is PASSED and not run.well)
+    return held_while_drifting(HoldTrial(read_preset("sputnix"), seed, hold))
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn, hold: float = HOLD) -> Result:
     """Balance and hold one random platform for each seed."""
     runs = spread(partial(held, hold), seeds)
-    reached = [within_reach(run.seed, run.began + hold) for run in runs]
-    near = [run for run, ok in zip(runs, reached, strict=True) if ok]
-    beyond = [run for run, ok in zip(runs, reached, strict=True) if not ok]
-    false = float(np.mean([passes_falsely(run) for run in runs]))
+    near = [each.run for each in runs if each.in_reach]
+    beyond = [each.run for each in runs if not each.in_reach]
+    runs = [each.run for each in runs]
+    false = float(np.mean([run.false for run in runs]))
     worst = np.array([run.worst.max() for run in near if run.held] or [np.nan]) / UM
     moves = np.mean([run.moves for run in near] or [np.nan])
     rows = (
@@ -83,7 +51,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn, hold: float = HOLD) 
         f"the median, {worst.max():.2f} um at most; {moves:.0f} moves each. Balancing "
         f"took {np.median([run.began for run in runs]):.0f} s in the median.",
         *(note_of(run) for run in near if not run.well),
-        *(f"Passed falsely: seed {run.seed}." for run in runs if passes_falsely(run)),
+        *(f"Passed falsely: seed {run.seed}." for run in runs if run.false),
     )
     claim = (
         f"Preset sputnix as it is, which declares no drift, with a truth that drifts by "

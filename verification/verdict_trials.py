@@ -79,7 +79,7 @@ def by_hand(seed: int) -> Judged:
 
 def hold(seed: int) -> Judged:
     """Balance and hold a platform that drifts; the truth at every second counts."""
-    run = drift.held(HOLD, seed)
+    run = drift.held(HOLD, seed).run
     return Judged(run.outcome, run.well)
 
 

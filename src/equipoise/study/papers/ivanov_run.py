@@ -15,6 +15,13 @@ from equipoise.study.papers.ivanov_balancing import (
     balanced,
     balancing_rows,
 )
+from equipoise.study.papers.ivanov_hold import (
+    HOLD,
+    Held,
+    HoldTrial,
+    held_while_drifting,
+    hold_rows,
+)
 from equipoise.study.papers.ivanov_rows import fit_rows, tracking_rows
 from equipoise.study.papers.paper_row import PaperRow
 
@@ -32,6 +39,7 @@ class IvanovRun:
     fits: Sequence[Fitted]
     tracked: Tracked
     balanced: Sequence[Balanced]  # by every law, with and without drift
+    held: Sequence[Held]  # for half an hour, with drift
 
     @property
     def rows(self) -> tuple[PaperRow, ...]:
@@ -40,11 +48,12 @@ class IvanovRun:
             *fit_rows(self.fits),
             *tracking_rows(self.tracked),
             *balancing_rows(self.balanced),
+            *hold_rows(self.held),
         )
 
 
-def ivanov_run(preset: Testbed, seeds: range, by: By) -> IvanovRun:
-    """Return the whole experiment: as many fits and platforms to balance as there are seeds."""
+def ivanov_run(preset: Testbed, seeds: range, by: By, hold: float = HOLD) -> IvanovRun:
+    """Return the whole experiment: as many fits, platforms to balance and to hold (s) as seeds."""
     whole = session(preset, seeds[0])
     fits = list(by("identifying")(partial(experiment, preset), seeds))
     along = tracked(preset, fits[0].estimate, seeds[0])
@@ -54,4 +63,7 @@ def ivanov_run(preset: Testbed, seeds: range, by: By) -> IvanovRun:
         for law in LAWS
         for drifts in (False, True)
     ]
-    return IvanovRun(preset, seeds, whole, fits, along, list(by("balancing")(balanced, trials)))
+    laws = list(by("balancing")(balanced, trials))
+    holds = [HoldTrial(preset, seed, hold) for seed in seeds]
+    held = list(by("holding for half an hour")(held_while_drifting, holds))
+    return IvanovRun(preset, seeds, whole, fits, along, laws, held)
