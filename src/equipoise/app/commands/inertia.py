@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag, Json
-from equipoise.app.console.terminal import print_whole, show_paths
+from equipoise.app.console.terminal import announced, print_whole, show_paths
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def _with_body(found: "MassBudget", name: str) -> "tuple[Testbed, str]":
     from equipoise.app.arguments.inputs import testbed_from, testbed_text_of
     from equipoise.io.testbed.testbed_file import parse_testbed, with_body
 
-    bed, text = testbed_from(name), testbed_text_of(name)
+    bed, text = announced(testbed_from(name)), testbed_text_of(name)
     if not found.is_whole:
         return bed, text
     text = with_body(text, found.estimate, found.body.inertia_C, name)

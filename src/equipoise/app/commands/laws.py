@@ -1,6 +1,7 @@
 """`equipoise laws`: how a platform can be balanced."""
 
 from equipoise.app.arguments.options import Json, Triple
+from equipoise.app.console.terminal import announced
 
 
 def laws(
@@ -41,7 +42,7 @@ def laws(
 
     if name is not None:
         catalogue[name]  # or says which is meant
-    bed, target = testbed_from(testbed), vector("--target-um", target_um, UM)
+    bed, target = announced(testbed_from(testbed)), vector("--target-um", target_um, UM)
     cards = [card for card in CARDS.values() if name in (None, card.name)]
     prospects = [prospect(card, bed, target) for card in cards]
     print_result(document(cards, prospects), blocks(bed.name, cards, prospects), json)
