@@ -42,7 +42,8 @@ class Held:
 
 def held_while_drifting(trial: HoldTrial) -> Held:
     """Return what a hold comes to on a platform that drifts undeclared."""
-    speed = float(np.random.default_rng([trial.seed, 4]).uniform(*SPEEDS))
+    slow, fast = map(float, SPEEDS)
+    speed = float(np.random.default_rng([trial.seed, 4]).uniform(slow, fast))
     bed = drifting(trial.preset, speed, trial.seed)
     holding = HoldOptions(duration=trial.duration)
     run = held_run(bed, holding, trial.seed)
