@@ -15,16 +15,17 @@ TONE: dict[Agreement, Tone] = {
 
 
 def paper_table(title: str, rows: Sequence[PaperRow]) -> Table:
-    """Return all rows: where, what, as printed, as found here, the verdict and why."""
-    columns = (Column("place"), prose("quantity"), number("printed"), number("here"),
-               Column("unit"), Column("verdict"), prose("remark"))  # fmt: skip
+    """Return all rows: where, what and why, as printed, as found here, the verdict."""
+    columns = (Column("place"), prose("quantity, and what is to be said of it"),
+               number("printed"), number("here"), Column("verdict"))  # fmt: skip
     return Table(title, columns, tuple(map(line, rows)))
 
 
 def line(row: PaperRow) -> Row:
     """Return a row of the table, its tone that of the verdict."""
-    cells = (row.place, row.quantity, numbers(row.printed), numbers(row.ours), row.unit,
-             row.agreement.value, row.why)  # fmt: skip
+    quantity = ", ".join(filter(None, (row.quantity, row.unit)))
+    what = ": ".join(filter(None, (quantity, row.why)))
+    cells = (row.place, what, numbers(row.printed), numbers(row.ours), row.agreement.value)
     return Row(cells, TONE[row.agreement])
 
 
