@@ -17,7 +17,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
 from equipoise.procedure.balancing.hold import HoldOptions
 from equipoise.procedure.steps.planned_move import stops_covariance
-from equipoise.study.held_run import HeldRun, WatchedBench, held_run
+from equipoise.study.held_run import HeldRun, TrueCourseBench, held_run
 from verification.result import Result, Row, Spread, at_most, in_turn, triple
 
 DRIFT = 1e-6 / 60  # m/s
@@ -52,7 +52,7 @@ class Errors:
     error: list[Array] = field(default_factory=list)
     z: list[Array] = field(default_factory=list)
 
-    def noted(self, steps: Iterator[Step], bench: WatchedBench) -> Iterator[Step]:
+    def noted(self, steps: Iterator[Step], bench: TrueCourseBench) -> Iterator[Step]:
         """Yield the steps as they come; note errors from the end of the balancing on."""
         holds = False
         for step in steps:
@@ -64,7 +64,7 @@ class Errors:
             yield step
 
 
-def error_of(step: Step, bench: WatchedBench) -> tuple[Array, Array]:
+def error_of(step: Step, bench: TrueCourseBench) -> tuple[Array, Array]:
     """Return the tracker's error at a step (m) and its sd, NaN when it says nothing."""
     true = bench.coms[-1]
     if step.move is not None and step.move.reason == "drift":

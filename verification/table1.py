@@ -37,7 +37,7 @@ def measure(
     """Balance every testbed's platforms of some seeds."""
     numbers = [1 + seed for seed in seeds]
     beds = {entry.preset: read_preset(entry.preset) for entry in entries}
-    runs = table1_runs(beds, entries, numbers, spread)
+    runs = table1_runs(beds, entries, numbers, lambda *work: iter(spread(*work)))
     rows, n = [row for run in runs for row in entry_rows(*run)], len(seeds)
     claim = (
         f"The thirteen testbeds of table 1 of da Silva et al. (2021), {n} platforms each, target "

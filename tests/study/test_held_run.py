@@ -10,7 +10,7 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.model.units import MINUTE, UM
 from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.balancing.hold import HoldOptions
-from equipoise.study.held_run import WatchedBench, held_run, rails_suffice
+from equipoise.study.held_run import TrueCourseBench, held_run, rails_suffice
 from equipoise.study.papers.ivanov import drift_of, drifting
 
 BED = drifting(read_preset("sputnix"), 2 * UM / MINUTE, 3)
@@ -23,7 +23,7 @@ def run():
 
 
 def test_the_truth_is_noted_every_second():
-    bench = WatchedBench(BED, 3)
+    bench = TrueCourseBench(BED, 3)
     bench.read(0.4)
     bench.read(5.0)
     np.testing.assert_allclose(bench.t, [0.4, 1.4, 2.4, 3.4, 4.4, 5.4])
@@ -32,7 +32,7 @@ def test_the_truth_is_noted_every_second():
 
 
 def test_a_read_in_pieces_is_the_read_as_a_whole():
-    whole, pieces = WatchedBench(BED, 3), WatchedBench(BED, 3)
+    whole, pieces = TrueCourseBench(BED, 3), TrueCourseBench(BED, 3)
     rows = whole.read(3.0).attitude
     parts = [pieces.read(1.0).attitude for _ in range(3)]
     np.testing.assert_array_equal(rows.values, np.vstack([part.values for part in parts]))

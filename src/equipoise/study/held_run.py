@@ -23,7 +23,7 @@ EVERY = 1.0  # s
 ENOUGH = 1e-6  # s: a hold that ends so much early has lasted to its end
 
 
-class WatchedBench(SimulatedBench):
+class TrueCourseBench(SimulatedBench):
     """A simulated bench that is read in pieces of a second, with the truth noted after each."""
 
     def __init__(self, testbed: Testbed, seed: int) -> None:
@@ -75,14 +75,14 @@ class HeldRun:
         return (self.balanced is passed and outside) or (self.outcome is passed and not self.well)
 
 
-Through = Callable[[Iterator[Step], WatchedBench], Iterator[Step]]
+Through = Callable[[Iterator[Step], TrueCourseBench], Iterator[Step]]
 
 
 def held_run(
     testbed: Testbed, holding: HoldOptions, seed: int, through: Through = lambda steps, _: steps
 ) -> HeldRun:
     """Return what balancing and holding a platform comes to; ``through`` lets others look on."""
-    bench = WatchedBench(testbed, seed)
+    bench = TrueCourseBench(testbed, seed)
     steps = list(through(balance_and_hold(bench, holding.balancing, holding), bench))
     first = next(k for k, step in enumerate(steps) if step.verdict is not None)
     began, verdict = steps[first].time, steps[first].verdict

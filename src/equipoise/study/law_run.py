@@ -9,7 +9,7 @@
 The law, and the verdict it ends with, know none of this.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,11 +68,17 @@ class Task:
 
 
 class CountedBench(SimulatedBench):
-    """A simulated bench that counts how far its masses go, m."""
+    """A simulated bench that counts how far its masses go (m) and how often they are sent."""
 
     def __init__(self, testbed: Testbed, seed: int) -> None:
         super().__init__(testbed, seed)
         self.travel = 0.0
+        self.moves, self.sent = 0, 0.0  # s, when the last one began
+
+    def move(self, targets: Mapping[str, float]) -> None:
+        """Move, and count."""
+        super().move(targets)
+        self.moves, self.sent = self.moves + 1, self.time
 
     def read(self, duration: float) -> Recording:
         """Read, and count."""

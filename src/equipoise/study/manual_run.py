@@ -19,11 +19,11 @@ BY_HAND = "by_hand"
 ROUNDS = 4  # placings, as the command has it
 
 
-def manual_run(task: Task) -> LawRun:
+def manual_run(task: Task, rounds: int = ROUNDS) -> LawRun:
     """Return what a person leaves; InputError for a testbed without weights."""
     hands = SimulatedHands(task.testbed, task.seed)
     before, verdict = torque_of(hands.truth(), task), Verdict(())
-    options = HandOptions(task.options.target, task.options.tolerance, max_rounds=ROUNDS)
+    options = HandOptions(task.options.target, task.options.tolerance, max_rounds=rounds)
     for step in balance_by_hand(hands, options):
         verdict = step.verdict or verdict
     truth = hands.truth()
@@ -42,7 +42,7 @@ def manual_run(task: Task) -> LawRun:
 
 
 def torque_of(body: MassProperties, task: Task) -> float:
-    """Return the torque (N m) that a platform as loaded leaves, rms within the task's tilt."""
+    """Return the torque (N m) of gravity on a body, rms within the task's tilt."""
     bed = task.testbed
     sag = SimulatedBench(bed, task.seed).sag
     weight = body.mass * bed.gravity

@@ -12,10 +12,11 @@ from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties
 from equipoise.procedure.balancing.catalogue import CARDS
 from equipoise.procedure.balancing.run_law import lacking
+from equipoise.study.manual_run import torque_of
 from equipoise.study.papers.paper_row import Agreement
 from equipoise.study.papers.table1 import TABLE1, Left, Procedure, Trial, trials_of
 from equipoise.study.papers.table1_rows import row_of, rows_of, share_reached, values_of
-from equipoise.study.papers.table1_run import left_by, torque_of, turned
+from equipoise.study.papers.table1_run import left_by, task_of, turned
 
 BY_NAME = {entry.preset: entry for entry in TABLE1}
 UNB, HARBIN, SYDNEY = (BY_NAME[name] for name in ("unb", "harbin", "sydney"))
@@ -95,9 +96,10 @@ def test_sydney_counts_the_torque_at_level_and_others_within_twenty_degrees():
     """5 um aside and 2 mm below: 4 kg g 5 um at level, and much more where it leans."""
     bed = read_preset("sydney")
     body = MassProperties(4.0, np.array([3e-6, 4e-6, -2e-3]), bed.body.inertia_P)
-    level = torque_of(body, Trial(SYDNEY, SYDNEY.best, bed, 1))
+    level = torque_of(body, task_of(Trial(SYDNEY, SYDNEY.best, bed, 1)))
     assert level == pytest.approx(4.0 * bed.gravity * 5e-6)
-    leaning = torque_of(body, Trial(replace(SYDNEY, tilt=0.35), SYDNEY.best, bed, 1))
+    aslant = Trial(replace(SYDNEY, tilt=0.35), SYDNEY.best, bed, 1)
+    leaning = torque_of(body, task_of(aslant))
     assert leaning > 50 * level
 
 

@@ -6,7 +6,7 @@ drifts at a speed and in a direction that its seed draws. A law is judged by whe
 the centre of mass, after how many moves and how long.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -20,9 +20,9 @@ from equipoise.model.units import MINUTE, UM
 from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import balanced_by
-from equipoise.simulation.bench import SimulatedBench
+from equipoise.study.law_run import CountedBench
 from equipoise.study.papers.ivanov import COM, drifting, platform
-from equipoise.study.papers.paper_row import Agreement, PaperRow
+from equipoise.study.papers.paper_row import PaperRow, no_larger
 
 TARGET = np.array([0.0, 0.0, -100.0]) * UM  # m, section 5
 NEAR = 10 * UM  # m, chosen: along each axis, twice what their fits scatter aside
@@ -32,19 +32,6 @@ SPEEDS = np.array([1.0, 4.0]) * UM / MINUTE  # m/s, chosen: what warmth does to 
 NEARLY = 0.05  # chosen: the printed numbers have one digit or two
 MOSTLY = 0.95  # of the platforms, chosen
 LAWS = ("ivanov_25s", "measure_and_move")
-
-
-class CountingBench(SimulatedBench):
-    """A simulated bench that counts the moves, and notes when the last one began."""
-
-    def __init__(self, testbed: Testbed, seed: int) -> None:
-        super().__init__(testbed, seed)
-        self.moves, self.last = 0, 0.0
-
-    def move(self, targets: Mapping[str, float]) -> None:
-        """Move, and count."""
-        super().move(targets)
-        self.moves, self.last = self.moves + 1, self.time
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,17 +75,17 @@ def bed_of(trial: Trial) -> Testbed:
 
 def balanced(trial: Trial) -> Balanced:
     """Return where a law leaves the platform of a trial."""
-    bench = CountingBench(bed_of(trial), trial.seed)
+    bench = CountedBench(bed_of(trial), trial.seed)
     options = BalanceOptions(TARGET, REACHED)
     made: tuple[int, float] | None = None
     outcome = VerdictOutcome.UNDECIDED
     for step in balanced_by(trial.law, bench, options, None):
         if made is None and ended(step):
-            made = bench.moves, bench.last
+            made = bench.moves, bench.sent
         if step.verdict is not None:
             outcome = step.verdict.outcome
     error = bench.truth().com - TARGET
-    moves = made or (bench.moves, bench.last)
+    moves = made or (bench.moves, bench.sent)
     return Balanced(trial.law, trial.seed, trial.drifts, error, *moves, outcome)
 
 
@@ -130,13 +117,6 @@ def law_rows(law: str, runs: Sequence[Balanced], drifts: bool) -> list[PaperRow]
     )
     return [
         PaperRow("Figs. 14, 15", f"{law}: {quantity}", unit, (float(printed),), (float(ours),),
-                 verdict(float(ours), float(printed)), why)
+                 no_larger([float(ours)], [float(printed)], NEARLY), why)
         for quantity, unit, printed, ours in numbers
     ]  # fmt: skip
-
-
-def verdict(ours: float, printed: float) -> Agreement:
-    """Return whether what should be small is smaller than it is printed, or nearly the same."""
-    if ours <= printed:
-        return Agreement.BETTER
-    return Agreement.AGREES if ours <= (1 + NEARLY) * printed else Agreement.DIFFERS

@@ -16,7 +16,7 @@ from equipoise.model.estimate import COM, INERTIA, Course
 from equipoise.model.units import UM
 from equipoise.study.papers import ivanov
 from equipoise.study.papers.ivanov import MOVED_AT, Fitted, Tracked, largest_residual, motions
-from equipoise.study.papers.paper_row import Agreement, PaperRow
+from equipoise.study.papers.paper_row import Agreement, PaperRow, no_larger
 
 COM_SCATTER = np.array([5.0, 5.0, 10.0])  # um, section 4, Fig. 9a
 INERTIA_SCATTER = np.array([0.1, 0.1, 0.1, 0.05, 0.05, 0.05])  # kg m2, section 4, Fig. 9b
@@ -103,7 +103,7 @@ def _small(
     place: str, quantity: str, unit: str, numbers: tuple[Floats, Floats], why: str
 ) -> PaperRow:
     ours, printed = numbers
-    agreement = Agreement.BETTER if bool(np.all(ours <= printed)) else Agreement.DIFFERS
+    agreement = no_larger(ours, printed)
     return PaperRow(place, quantity, unit, _tuple(printed), _tuple(ours), agreement, why)
 
 

@@ -1,9 +1,8 @@
 """Ivanov et al.'s experiment as a whole: records and fits, the tracker, the balancing."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -24,9 +23,7 @@ from equipoise.study.papers.ivanov_hold import (
 )
 from equipoise.study.papers.ivanov_rows import fit_rows, tracking_rows
 from equipoise.study.papers.paper_row import PaperRow
-
-Spread = Callable[[Callable[[Any], Any], Sequence[Any]], Iterator[Any]]
-By = Callable[[str], Spread]  # takes what is done, for those who wait
+from equipoise.study.papers.run_engine import By
 
 
 @dataclass(frozen=True, slots=True, eq=False)

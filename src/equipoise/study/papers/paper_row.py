@@ -1,5 +1,6 @@
 """One number or finding of a paper beside this program's own, and whether they agree."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -11,6 +12,15 @@ class Agreement(StrEnum):
     BETTER = "better"  # ours errs less than what is printed
     DIFFERS = "differs"  # and ``why`` says why
     SHOWN = "shown"  # a figure, or a number of ours where the paper prints none
+
+
+def no_larger(ours: Iterable[float], printed: Iterable[float], nearly: float = 0.0) -> Agreement:
+    """Return what numbers that should be small are to printed ones; ``nearly``: a share more."""
+    pairs = list(zip(ours, printed, strict=True))
+    if all(a <= b for a, b in pairs):
+        return Agreement.BETTER
+    near = nearly > 0 and all(a <= (1 + nearly) * b for a, b in pairs)
+    return Agreement.AGREES if near else Agreement.DIFFERS
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,8 @@ Methods and laws run on the preset reference-table, a person on the same platfor
 and grids of the preset weights-by-hand. Limits are those of `equipoise compare`.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -21,15 +20,15 @@ from equipoise.study.compare_methods import MethodComparison
 from equipoise.study.law_run import Task
 from equipoise.study.manual_run import manual_run
 from equipoise.study.papers.null_vector import NullVector, paper_rows
-from equipoise.study.papers.paper_row import Agreement, PaperRow
+from equipoise.study.papers.paper_row import PaperRow, no_larger
 from equipoise.study.papers.review_rows import law_claims, method_claims
+from equipoise.study.papers.run_engine import Spread
 
 TARGET, TOLERANCE = np.zeros(3), np.array([2.0, 2.0, 3.0]) * UM  # m
 LONGEST, TILT, REQUIRED = 600.0, float(np.radians(20.0)), 1e-5  # s, rad, N m
 RECORD, MOVED_AT = 120.0, 60.0  # s, of each record for methods
 MOVE = {"coarse_x": 2 * MM, "coarse_y": -2 * MM, "coarse_z": -5 * MM}  # chosen: 29 and 71 um
 BY_HAND = 1e-2  # N m, section 3: as low as it was balanced by hand
-Spread = Callable[[Callable[[Any], Any], Sequence[Any]], Iterator[Any]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,7 +61,7 @@ class ReviewRun:
 def manual_row(found: LawSummary) -> PaperRow:
     """Return what a person leaves beside what people are reported to."""
     ours = found.torque.most / MN_M
-    agreement = Agreement.BETTER if ours <= BY_HAND / MN_M else Agreement.DIFFERS
+    agreement = no_larger([ours], [BY_HAND / MN_M])
     why = f"{found.runs} platforms, most of 95 %; weights of 1 g, told where by the program"
     return PaperRow("section 3", "torque that balancing by hand leaves", "mN m",
                     (BY_HAND / MN_M,), (ours,), agreement, why)  # fmt: skip

@@ -3,14 +3,13 @@
 Torque is root mean square over directions within a tilt of level, as in ``study.law_run``.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import islice
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from equipoise.control.elements.attitude_pid import Gains
-from equipoise.dynamics.sag_trim import residual_torque
 from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.maths.attitude import exponential, level, multiply
@@ -22,12 +21,13 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 from equipoise.procedure.balancing.balance import BalanceOptions
-from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 from equipoise.procedure.balancing.run_law import LawOptions, run_law
 from equipoise.simulation.hands import SimulatedHands
 from equipoise.study.law_run import Task, judged_run, law_run
+from equipoise.study.manual_run import manual_run, torque_of
 from equipoise.study.papers.compensation import compensation
 from equipoise.study.papers.gyro_slew import slewed
+from equipoise.study.papers.run_engine import Spread
 from equipoise.study.papers.table1 import Entry, Left, Trial, Way, trials_of
 
 LONGEST = 1200.0  # s on the bench's clock, chosen: an adaptive law takes a quarter of an hour
@@ -38,8 +38,6 @@ HEADING, LEAN = float(np.radians(70.0)), float(np.radians(20.0))  # rad, chosen:
 SLEW = 60.0  # s, chosen: until the platform rests
 FREQUENCY, DAMPING, INTEGRAL = 0.3, 0.7, 0.05  # rad/s, -, rad/s, chosen: of a slew
 MOST = 0.05  # N m, chosen: twice the torque of an offset that a person leaves on a large table
-NO_SAG = np.zeros((3, 3))
-Spread = Callable[[Callable[[Any], Any], Sequence[Any]], Iterable[Any]]
 
 
 class Ran(NamedTuple):
@@ -80,13 +78,8 @@ def by_compensation(trial: Trial) -> Left:
 
 def by_placing(trial: Trial) -> Left:
     """Return what weights leave that a person places as asked; height counts where it can be."""
-    hands, entry = SimulatedHands(trial.testbed, trial.seed), trial.entry
-    before = torque_of(hands.truth(), trial)
-    options = HandOptions(np.zeros(3), np.array(entry.tolerance) * UM, max_rounds=ROUNDS)
-    for _ in balance_by_hand(hands, options):
-        pass
-    truth = hands.truth()
-    return Left(torque_of(truth, trial), length(truth.com), before, hands.time)
+    run = manual_run(task_of(trial), ROUNDS)
+    return Left(run.torque, length(run.offset), run.torque_before, run.time)
 
 
 def by_feed_forward(trial: Trial) -> Left:
@@ -97,7 +90,8 @@ def by_feed_forward(trial: Trial) -> Left:
     true = SimulatedHands(testbed, trial.seed).truth()
     found = estimated(METHODS[trial.procedure.name], slew.recording, testbed, Options())
     error = MassProperties(true.mass, true.com - found.com, true.inertia_P)
-    return Left(torque_of(error, trial), length(error.com), torque_of(true, trial), SLEW)
+    task = task_of(trial)
+    return Left(torque_of(error, task), length(error.com), torque_of(true, task), SLEW)
 
 
 def turned(up: Vector3) -> Quaternion:
@@ -109,12 +103,6 @@ def turned(up: Vector3) -> Quaternion:
 def length(offset: Vector3) -> float:
     """Return |r|, m."""
     return float(np.linalg.norm(offset))
-
-
-def torque_of(body: MassProperties, trial: Trial) -> float:
-    """Return the torque (N m) of gravity on a body, rms within the entry's tilt."""
-    bed = trial.testbed
-    return body.mass * bed.gravity * residual_torque(body.com, NO_SAG, bed.up, trial.entry.tilt)
 
 
 RUNS: dict[Way, Callable[[Trial], Left]] = {
