@@ -21,10 +21,12 @@ from equipoise.estimation.output_error.solution import Fitted, cost_of, finite_c
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.estimation.parameters.fit_parameters import Unknowns, with_errors_of
 from equipoise.estimation.search_budget import Stage
-from equipoise.model.arrays import Bools, Floats, Series1, Vector3
+from equipoise.maths.linalg import inverse_spd
+from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
 from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import TERMS, typical_sizes
 from equipoise.sensors.vector_sensors import CHANNELS as VECTORS
 
 EACH = 60  # evaluations, chosen: twice what a fit takes that settles
@@ -193,11 +195,14 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
     All unknowns are integrated out about the optimum (Laplace's approximation):
     2 cost + sum ln sd^2 over rows, jumps and priors + ln det of the information on all unknowns.
     An event has no prior to speak of: all else is as informed as if it were known, and it costs
-    ``price``, the surprise that it must exceed.
+    ``price``, the surprise that it must exceed. A torque's coefficient is as large as on benches.
     """
     measured, prior = fit.problem.observed, fit.problem.prior
     loose = (prior.weight > 0) & ~prior.held
-    total = 2.0 * fit.at.cost + log_det(fit.at.normal) - float(np.sum(np.log(prior.weight[loose])))
+    d, more = typical_torques(fit)
+    total = 2.0 * fit.at.cost + shrunk(d, fit.at.normal, more)
+    total += log_det(fit.at.normal + np.diag(more))
+    total -= float(np.sum(np.log((prior.weight + more)[loose])))
     for rows, sd in ((measured.attitude, measured.attitude_sd), (measured.rate, measured.rate_sd)):
         total += 6.0 * len(rows) * float(np.log(sd))
     total += 6.0 * float(np.sum(np.log(measured.vectors.sd[measured.vectors.sensor])))
@@ -214,6 +219,30 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
         else:
             total -= float(np.sum(np.log(cuts.weight[alike, :a])))
     return total
+
+
+def typical_torques(fit: Fitted) -> tuple[Floats, Floats]:
+    """Return the coefficients of torques in a fit, and what their usual size informs of them.
+
+    Beyond the fit's own prior; both are zero for all other unknowns.
+    """
+    layout, prior = fit.problem.layout, fit.problem.prior
+    own = np.where(prior.held[layout.torques], np.inf, prior.weight[layout.torques])
+    found, more = np.zeros((2, layout.size))
+    found[layout.torques] = fit.point.torque[np.isin(TERMS, layout.terms)]
+    more[layout.torques] = np.maximum(typical_sizes(layout.terms) ** -2.0 - own, 0.0)
+    return found, more
+
+
+def shrunk(d: Floats, information: Square, more: Floats) -> float:
+    """Return by how much twice a cost with its optimum at d grows, drawn towards zero by W more.
+
+    min_x (x - d)^T N (x - d) + x^T W x = d^T (W - W (N + W)^-1 W) d
+    """
+    if not more.any():
+        return 0.0
+    pull = more * d
+    return float(pull @ d - pull @ inverse_spd(information + np.diag(more)) @ pull)
 
 
 def improbability(model: RecordModel) -> float:

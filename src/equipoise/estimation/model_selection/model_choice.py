@@ -5,7 +5,8 @@ the present optimum and the group's coefficients having a plausible size each (W
 
     2 ln ratio = b^T (S + W)^-1 b - ln det(E + W^-1 S),     S = A_BB - A_BA A_AA^-1 A_AB
 
-(the Bayes factor in Laplace's approximation). It is kept when it also predicts
+(the Bayes factor in Laplace's approximation). Torques that promise about as much are all fitted,
+and the one is tried in which the record is most probable. A group is kept when it also predicts
 (``cross_validation``): a term that merely bends to fit loses on rows that were held out. A torque
 needs a lead (``SURE``; Kass and Raftery 1995 call 6 strong). An error of a sensor needs none: where
 it is as likely there as not, leaving it out moves com by several sd.
@@ -20,7 +21,7 @@ An unknown event may resemble a term, and a term events. So a term that promises
 event is taken before it (``is_lawful``), and every term is put to the test again when all else is
 known (``bared``).
 
-Cannot separate terms that do the same within the record: the first that predicts is kept.
+Cannot separate terms that do the same within the record: the likelier one is kept.
 """
 
 from collections.abc import Sequence
@@ -50,7 +51,7 @@ from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, wit
 from equipoise.estimation.output_error.problem import changes
 from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
-from equipoise.estimation.parameters.fit_parameters import sensor_sizes, term_sizes
+from equipoise.estimation.parameters.fit_parameters import sensor_sizes
 from equipoise.estimation.search_budget import Stage
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats
@@ -145,11 +146,10 @@ def without_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:
 
 
 def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
-    """Return how large the coefficients of a group may well be, one sd."""
+    """Return how large the coefficients of a group may well be, one sd; a torque's, on benches."""
     if is_of_sensors(group):
         return sensor_sizes(group, model.testbed)
-    testbed = model.testbed
-    return term_sizes(group, testbed.body.mean_moment, testbed.weight)
+    return torque_terms.typical_sizes(group)
 
 
 def surplus(model: RecordModel, group: tuple[str, ...]) -> float:
@@ -186,14 +186,20 @@ def lead(group: tuple[str, ...]) -> float:
     return 0.0 if is_of_sensors(group) and group != CLOCK else SURE
 
 
-def best_group(model: RecordModel, refused: Refused) -> tuple[tuple[str, ...], float]:
-    """Return the group that promises most, a late log first, and by how much beyond its lead."""
-    open_to = [group for group in candidates(model) if group not in refused]
-    found = [promise(model, group) - lead(group) for group in open_to]
-    most = int(np.argmax(found)) if found else 0
-    if LATE_LOG in open_to and found[open_to.index(LATE_LOG)] > SURE:
-        most = open_to.index(LATE_LOG)
-    return (open_to[most], found[most]) if found else ((), -np.inf)
+def best_groups(model: RecordModel, refused: Refused) -> list[tuple[str, ...]]:
+    """Return the group that promises most beyond its lead; none if none does.
+
+    A late log comes first. Torques that promise about as much as the best torque come with it.
+    """
+    found = {g: promise(model, g) - lead(g) for g in candidates(model) if g not in refused}
+    best = max(found, key=lambda group: found[group], default=())
+    if found.get(LATE_LOG, -np.inf) > SURE:
+        best = LATE_LOG
+    if found.get(best, 0.0) <= 0.0:
+        return []
+    least = max(found[best] - CLEAR, 0.0)
+    others = [g for g in found if g != best and found[g] > least and not is_of_sensors(g)]
+    return [best, *([] if is_of_sensors(best) else others)]
 
 
 def likeliest(models: Sequence[RecordModel]) -> RecordModel:
@@ -201,23 +207,30 @@ def likeliest(models: Sequence[RecordModel]) -> RecordModel:
     return min(models, key=improbability)
 
 
-def extended(model: RecordModel, group: tuple[str, ...], refused: Refused) -> RecordModel:
-    """Return the model with a group of terms, if that predicts better; refuse it otherwise."""
-    richer = responding(retimed(refitted(with_group(model, group))))
+def extended(
+    model: RecordModel, groups: Sequence[tuple[str, ...]], refused: Refused
+) -> RecordModel:
+    """Return the model with the likeliest of some groups of terms, if that predicts better.
+
+    Refuse that group otherwise.
+    """
+    found = [responding(retimed(refitted(with_group(model, group)))) for group in groups]
+    richer = likeliest(found)
     if richer.fitted.converged and model.may(Stage.TERMS) and predicts_better(model, richer):
         return richer
-    refused.add(group)
+    refused.add(groups[found.index(richer)])
     return model
 
 
-def is_lawful(richer: RecordModel, shaken: RecordModel, group: tuple[str, ...]) -> bool:
+def is_lawful(model: RecordModel, richer: RecordModel, shaken: RecordModel) -> bool:
     """Say whether a term explains about as much as an event that promises, too.
 
     Each unknown counting as much as one of an event, or by how likely the record is with either:
     coefficients far smaller than their plausible size do badly by the latter, many by the former.
     Where both do, the term is taken: it leaves open more than an event, which has come and gone.
     """
-    counted = threshold(richer.spacing) * (len(group) / 3 - 1)
+    more = richer.fitted.problem.layout.size - model.fitted.problem.layout.size
+    counted = threshold(richer.spacing) * (more / 3 - 1)
     if farther(richer, shaken) + counted < CLEAR:
         return True
     return improbability(richer) - improbability(shaken) < CLEAR

@@ -23,7 +23,7 @@ from equipoise.estimation.model_selection import survey_reasons
 from equipoise.estimation.model_selection.initial_model import is_close
 from equipoise.estimation.model_selection.model_choice import (
     Refused,
-    best_group,
+    best_groups,
     extended,
     is_lawful,
 )
@@ -59,12 +59,12 @@ def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
         model, surprise, fit = calibrated(model)
         if is_drowned(model) or not model.may(Stage.TERMS):
             break
-        group, promise = best_group(model, refused) if terms else ((), 0.0)
+        groups = best_groups(model, refused) if terms else []
         shaken = touched(model, surprise, fit)
-        if promise <= 0 and shaken is None:
+        if not groups and shaken is None:
             break
-        richer = extended(model, group, refused) if promise > 0 else model
-        if shaken is None or (richer is not model and is_lawful(richer, shaken, group)):
+        richer = extended(model, groups, refused) if groups else model
+        if shaken is None or (richer is not model and is_lawful(model, richer, shaken)):
             model = richer
         else:
             model = shaken
