@@ -32,6 +32,8 @@ from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
+STEADY = 1e-3  # of a field, chosen: it turns by less than a magnetometer's mounting is known
+
 
 def reported(recording: Recording, devices: Sequence[Device]) -> Series:
     """Return the reports of these devices, (n, k) SI; InputError for one without."""
@@ -85,6 +87,17 @@ def cage_at(t: Series1, recording: Recording, testbed: Testbed) -> Floats | None
     if not testbed.coil_pairs or rows is None or not len(rows):
         return None
     return read_at(t, rows.t, reported(recording, testbed.coil_pairs))
+
+
+def changes_field(recording: Recording, testbed: Testbed) -> bool:
+    """Say whether a cage turned or changed the field on the way: it shows no attitude then."""
+    rows = recording.devices
+    cage = None if rows is None else cage_at(rows.t, recording, testbed)
+    field_N = None if cage is None else testbed.field_N(cage)
+    if field_N is None:
+        return False
+    most = np.linalg.norm(field_N, axis=1).max()
+    return bool(np.ptp(field_N, axis=0).max() > STEADY * most)
 
 
 def known_torque(recording: Recording, testbed: Testbed) -> Samples | None:

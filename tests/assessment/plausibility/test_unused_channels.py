@@ -8,7 +8,7 @@ import pytest
 from equipoise.assessment.findings.record_findings import findings
 from equipoise.assessment.plausibility.unused_channels import unused_findings
 from equipoise.io.testbed.presets import preset_names, read_preset
-from equipoise.model.devices import MagneticField, Magnetorquer
+from equipoise.model.devices import CoilPair, MagneticField, Magnetorquer
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
@@ -50,6 +50,19 @@ def test_a_magnetometer_serves_magnetorquers() -> None:
     """Their torque is the cross product of their dipole and the field that it measures."""
     bed = replace(read_preset("nanosat"), **{k: None for k in GONE}, magnetorquers=(COIL,))
     assert not unused_findings(Recording(attitude=ATTITUDE, field=ROWS), bed)
+
+
+@pytest.mark.parametrize(("rows", "code"), [(np.linspace(0.0, 1e-5, 50), Why.FIELD_CHANGED),
+                                            (np.full(50, 1e-5), None)])  # fmt: skip
+def test_a_field_that_its_cage_changed_is_named(rows, code) -> None:
+    """Rows of a magnetometer show the attitude only in a field that stays."""
+    bed = replace(read_preset("nanosat"), magnetorquers=(), **{k: None for k in GONE})
+    bed = replace(bed, **SENSORS["field"], coil_pairs=(CoilPair("x", UP, 1e-4),))
+    recording = Recording(attitude=ATTITUDE, field=ROWS, device_names=("cage:x",),
+                          devices=Samples(ROWS.t, rows[:, None]))  # fmt: skip
+    assert [found.code for found in unused_findings(recording, bed)] == [code] * (code is not None)
+    coiled = replace(bed, magnetorquers=(COIL,))
+    assert not unused_findings(recording, coiled)
 
 
 COIL = Magnetorquer("x", np.array([1.0, 0.0, 0.0]), 1.0)

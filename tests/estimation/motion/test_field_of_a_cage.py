@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.estimation.motion.observed_vectors import changes_field, observed
+from equipoise.actuators.stored_momentum import changes_field
+from equipoise.estimation.motion.observed_vectors import observed
 from equipoise.model.devices import CoilPair, MagneticField
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.vector_sensors import Magnetometer

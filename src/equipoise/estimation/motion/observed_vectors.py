@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.actuators.stored_momentum import cage_at
+from equipoise.actuators.stored_momentum import cage_at, changes_field
 from equipoise.model import sensor_terms
 from equipoise.model.arrays import Floats
 from equipoise.model.devices import CoilPair
@@ -14,7 +14,6 @@ from equipoise.model.testbed import Testbed
 from equipoise.sensors.vector_sensors import VectorSensor, vector_sensors
 
 EXACT = -1
-STEADY = 1e-3  # of a field, chosen: it turns by less than a magnetometer's mounting is known
 
 
 def observed(recording: Recording, testbed: Testbed) -> list[tuple[VectorSensor, Samples]]:
@@ -24,17 +23,6 @@ def observed(recording: Recording, testbed: Testbed) -> list[tuple[VectorSensor,
     rows = [(in_field(each, recording, testbed), getattr(recording, each.channel))
             for each in sensors]  # fmt: skip
     return [(each, channel) for each, channel in rows if channel is not None and len(channel)]
-
-
-def changes_field(recording: Recording, testbed: Testbed) -> bool:
-    """Say whether a cage turned or changed the field on the way: it shows no attitude then."""
-    rows = recording.devices
-    cage = None if rows is None else cage_at(rows.t, recording, testbed)
-    field_N = None if cage is None else testbed.field_N(cage)
-    if field_N is None:
-        return False
-    most = np.linalg.norm(field_N, axis=1).max()
-    return bool(np.ptp(field_N, axis=0).max() > STEADY * most)
 
 
 def in_field(sensor: VectorSensor, recording: Recording, testbed: Testbed) -> VectorSensor:

@@ -37,6 +37,11 @@ class FindingReason(Code):
         "rows_unused",
         "{0}: {rows:.0f} rows are not used, since the testbed has no {1}.",
     )
+    FIELD_CHANGED = (
+        "field_changed",
+        "{0}: {rows:.0f} rows are not used, since the cage changed its field meanwhile. Identify a "
+        "part in which it holds still (--from-s, --to-s).",
+    )
     INPUT_UNREAD = (
         "input_unread",
         "the column '{0}' goes from {low:.4g} to {high:.4g}, and nothing reads it: if that acts on "
