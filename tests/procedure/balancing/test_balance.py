@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.testbed import Fault
 from equipoise.model.units import UM
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
@@ -103,3 +104,17 @@ def test_with_moves_to_spare_it_goes_below_again_to_learn_the_height():
     assert len(below) > 1
     _, usual = plain()
     assert steps[-1].verdict.sd[2] < 0.7 * usual[-1].verdict.sd[2]
+
+
+@pytest.mark.parametrize("seed", thorough.some([1, 2, 3], 1))
+def test_rails_that_do_not_reach_end_it(seed):
+    """5 mm of rail move the height by 22 um, and 79 are wanted: no move is spent on nothing."""
+    short = [m if m.name[0] != "z" else replace(m, travel=(-0.005, 0.005)) for m in SPUTNIX.masses]
+    options = BalanceOptions(max_moves=10, max_time=300.0)
+    bench, steps = run(replace(SPUTNIX, masses=tuple(short)), options, seed)
+    assert steps[-1].reasons[0].code is StepReason.NEAREST
+    assert not steps[-1].verdict.passed
+    assert all(move.travel > 1e-4 for move in moves_of(steps))
+    off = np.abs(bench.truth().com - options.target)
+    assert np.all(off[:2] < options.tolerance[:2])
+    assert off[2] > options.tolerance[2]

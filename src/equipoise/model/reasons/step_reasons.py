@@ -81,6 +81,11 @@ class StepReason(Code):
     ESTIMATE_UNUSABLE = "estimate_cannot_be_used", "The estimate cannot be used."
     TIME_USED_UP = "time_used_up", "The time is used up."
     MOVES_USED_UP = "moves_used_up", "The moves are used up."
+    NEAREST = (
+        "nearest",
+        "The masses stand where they bring the centre of mass nearest to the target: their travel "
+        "does not reach it.",
+    )
     ROUNDS_USED_UP = "rounds_used_up", "The rounds are used up."
     TILTED = "tilt_limit_exceeded", "The platform tilts to its limit."
     NOTHING_REQUIRED = "no_verdict_required", "Nothing is required, so there is no verdict."

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.actuators.sliding_masses import displacements_for
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
@@ -96,15 +97,14 @@ def balance(
             bench.stop()
             yield final(bench, progress, options, why)
             return progress.knowledge
-        option = decide(bench, progress, options, began)
-        if option is None:
+        decided = decide(bench, progress, options, began)
+        if decided is None:
             fresh = bench.read(MEASUREMENT)
             knowledge = learn(progress.knowledge, fresh, bench.testbed, options.budget)
             progress = replace(progress, knowledge=knowledge)
             continue
         yield com_step(bench.time, progress.knowledge)
-        knowledge = progress.knowledge
-        reason = reason_of(knowledge, bench.testbed, option, options.target)
+        (option, reason), knowledge = decided, progress.knowledge
         now = knowledge.displacement
         posterior = without_stops(knowledge, bench.testbed, option.targets != now)
         move = planned_move(bench.testbed, now, option.targets, posterior, reason)
@@ -134,17 +134,27 @@ def reason_to_stop(
         return StepReason.ESTIMATE_UNUSABLE
     if bench.time - began + MEASUREMENT > options.max_time:
         return StepReason.TIME_USED_UP
-    spent = len(progress.moves) >= options.max_moves
     hopeless = np.abs(knowledge.com - options.target) - 2 * knowledge.sd > options.tolerance
-    if spent and judged and bool(hopeless.any()):
+    if not judged or not hopeless.any():
+        return None
+    if not movable:
         return StepReason.MOVES_USED_UP
-    return None
+    return None if comes_nearer(knowledge, bench.testbed, options) else StepReason.NEAREST
+
+
+def comes_nearer(knowledge: Knowledge, testbed: Testbed, options: BalanceOptions) -> bool:
+    """Say whether the masses have travel left that brings the centre of mass nearer."""
+    off = options.target - knowledge.com
+    total, now = testbed.body.mass, knowledge.displacement
+    goal = displacements_for(testbed.masses, total, now, off)
+    left = options.target - shifted(knowledge, testbed, goal)
+    return bool(np.any(np.abs(off) - np.abs(left) > TRIM * options.tolerance))
 
 
 def decide(
     bench: Bench, progress: Progress, options: BalanceOptions, began: float
-) -> Option | None:
-    """Return a move to make now, or None to go on measuring."""
+) -> tuple[Option, MoveReason] | None:
+    """Return a move to make now and why, or None to go on measuring."""
     left = options.max_moves - len(progress.moves)
     knowledge, testbed = progress.knowledge, bench.testbed
     if left == 0 or not testbed.masses:
@@ -154,7 +164,7 @@ def decide(
     if left > 1 and not progress.braking and urgent(view, options.target, may_brake):
         option = safest(view, options.target, may_brake)
         if option.peak < HELPS * view.peak(knowledge.displacement):
-            return option
+            return option, MoveReason.BRAKE if option.brake else MoveReason.BELOW_FIRST
     if not (progress.braking or ripe(bench, progress, options, began)):
         return None
     hurried = bench.time - began > options.max_time - RETURN
@@ -162,7 +172,9 @@ def decide(
     aim = below(knowledge, options.target, testbed) if learning else options.target
     option = option_for(view, aim)
     pressed = bench.time - began > options.max_time - SETTLE
-    return option if pressed or good_moment(view, option) else None
+    if not pressed and not good_moment(view, option):
+        return None
+    return option, MoveReason.BELOW_FIRST if learning else MoveReason.TO_TARGET
 
 
 def worth_learning(
@@ -221,16 +233,6 @@ def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float
     known = bool(np.all((sd < enough * options.close) | ((sd < rough * off) & (left > 1))))
     worth = off > TRIM * options.close if late and left == 1 else off + sd > options.close
     return bool(np.any(worth)) and (known or late) and fresh_enough(knowledge, progress.still_since)
-
-
-def reason_of(
-    knowledge: Knowledge, testbed: Testbed, option: Option, target: Vector3
-) -> MoveReason:
-    """Return why this move."""
-    if option.brake:
-        return MoveReason.BRAKE
-    above = float((shifted(knowledge, testbed, option.targets) - target) @ testbed.up)
-    return MoveReason.BELOW_FIRST if above < -NOTABLE else MoveReason.TO_TARGET
 
 
 def announced(move: Move) -> tuple[Reason, ...]:
