@@ -5,7 +5,6 @@ within tolerance. Or it is not balanced and says why: the bench was stopped with
 belongs to the fault, or the verdict on fresh data fails. Either way masses stand within a second.
 """
 
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -16,12 +15,12 @@ import numpy as np
 from equipoise.app.runs.balancing import until_stopped
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.reasons.interlocks import Interlock
-from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from tests.support.emulated_lab import Lab, lab, over_tcp
 from tests.support.faulty_wire import covered, garbage, half, noisy, repeated, silent
+from verification.line_faults import TILT, Fault, by_fault, endings, spoil, unplug
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 OPTIONS = BalanceOptions()
@@ -34,19 +33,8 @@ LOST_BOARD = ("board masses", Interlock.FAULT, Interlock.POSITION_UNKNOWN,
               Interlock.NOT_ANSWERING)  # fmt: skip
 # Grbl's lines bear no checksum.
 MISHEARD = (*LOST_BOARD, Interlock.SPEED, Interlock.TRAVEL, Interlock.MISMATCH)
-# It may swing too far while rows are awaited.
-TILT = (VerdictReason.TILTED, Interlock.TILT, Interlock.RATE)
 
 Strike = Callable[[Any, np.random.Generator], None]
-
-
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """Something that goes wrong, and why the bench may be stopped for it."""
-
-    name: str
-    strike: Strike
-    causes: tuple[str, ...] = ()  # codes, or the device that is to blame
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,24 +50,12 @@ class Run:
 
 def spoilt(where: str, how: Any, for_s: float = np.inf) -> Strike:
     """Return a fault of a wire, for so long."""
-
-    def strike(found: Lab, _rng: np.random.Generator) -> None:
-        wire = getattr(found, where).wire
-        wire.spoil = how
-        found.clock.at(found.emulated.time + for_s, lambda: setattr(wire, "spoil", None))
-
-    return strike
+    return lambda found, _rng: spoil(found, getattr(found, where).wire, how, for_s)
 
 
 def unplugged(where: str, for_s: float) -> Strike:
     """Return a plug that is pulled, and put back after so long."""
-
-    def strike(found: Lab, _rng: np.random.Generator) -> None:
-        wire = getattr(found, where).wire
-        wire.unplug()
-        found.clock.at(found.emulated.time + for_s, wire.plug_in)
-
-    return strike
+    return lambda found, _rng: unplug(found, getattr(found, where).wire, for_s)
 
 
 def moved_in_part(share: float) -> Strike:
@@ -171,19 +147,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         f"first {LATEST:g} s. The run ends balanced, and truly so, or unbalanced in words that "
         f"belong to the fault; a second later no mass moves. {len(runs)} seeds."
     )
-    endings = Counter(run.ending for run in runs)
-    reported = ", ".join(f"{count} {ending}" for ending, count in sorted(endings.items()))
-    by_fault = (
-        f"{fault.name}: "
-        + ", ".join(
-            f"{count} {ending}"
-            for ending, count in sorted(
-                Counter(run.ending for run in runs if run.fault == fault.name).items()
-            )
-        )
-        for fault in FAULTS
-        if any(run.fault == fault.name for run in runs)
-    )
+    shared = by_fault((run.fault, run.ending) for run in runs)
     odd = (f"Seed {r.seed}, {r.fault}, {r.ending}: {r.sentence}" for r in runs if not r.good)
     rows: tuple[Row, ...] = (
         at_least("recovered, or stopped in the right words", np.mean([r.good for r in runs]), 1.0,
@@ -191,4 +155,9 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         at_most("passed and truly out of tolerance",
                 sum(r.ending == "balanced" and not r.good for r in runs), 0, "d"),
     )  # fmt: skip
-    return Result("faulty_benches", claim, rows, (f"Endings: {reported}.", *by_fault, *odd))
+    return Result(
+        "faulty_benches",
+        claim,
+        rows,
+        (f"Endings: {endings(run.ending for run in runs)}.", *shared, *odd),
+    )

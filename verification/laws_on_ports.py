@@ -12,7 +12,6 @@ with the reason that belongs to the fault. Either way no mass moves and no devic
 later.
 """
 
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -32,7 +31,7 @@ from equipoise.procedure.balancing.hold import FIRST_MOVES
 from tests.support.emulated_lab import Lab, lab, over_tcp
 from tests.support.faulty_wire import Late, garbage, half, noisy, repeated, silent
 from tests.support.gyro_pyramid import pyramid
-from verification.faulty_benches import TILT
+from verification.line_faults import TILT, Fault, by_fault, endings, spoil, unplug
 from verification.result import Result, Row, Spread, at_least, in_turn
 
 TARGET, TOLERANCE = np.zeros(3), np.array([2e-6, 2e-6, 3e-6])  # m, as ``laws`` has them
@@ -60,18 +59,6 @@ StrikeAt = Callable[[Lab, str, np.random.Generator], None]  # at which electroni
 
 
 @dataclass(frozen=True, slots=True)
-class FaultAt:
-    """Something that goes wrong with electronics, and why the bench may be stopped for it.
-
-    It may be stopped for its tilt, too: a law that is broken off lets the platform swing.
-    """
-
-    name: str
-    strike: StrikeAt
-    causes: tuple[str, ...] = ()  # codes, or the unit that is to blame
-
-
-@dataclass(frozen=True, slots=True)
 class LawOnPorts:
     """What one law came to."""
 
@@ -89,6 +76,7 @@ class Struck:
     """What became of a law to whose devices a fault happened."""
 
     seed: int
+    law: str
     fault: str
     ending: str  # went on, stopped
     good: bool
@@ -141,13 +129,7 @@ def run_on_ports(task: tuple[str, int]) -> LawOnPorts:
 
 def spoilt(how: Any, for_s: float = np.inf) -> StrikeAt:
     """Return a fault of the line from the electronics, for so long."""
-
-    def strike(found: Lab, unit: str, _rng: np.random.Generator) -> None:
-        wire = station_of(found, unit).wire
-        wire.spoil = how
-        found.clock.at(found.emulated.time + for_s, lambda: setattr(wire, "spoil", None))
-
-    return strike
+    return lambda found, unit, _rng: spoil(found, station_of(found, unit).wire, how, for_s)
 
 
 def late(by: float) -> StrikeAt:
@@ -161,13 +143,7 @@ def late(by: float) -> StrikeAt:
 
 def unplugged(for_s: float) -> StrikeAt:
     """Return a plug that is pulled, and put back after so long."""
-
-    def strike(found: Lab, unit: str, _rng: np.random.Generator) -> None:
-        wire = station_of(found, unit).wire
-        wire.unplug()
-        found.clock.at(found.emulated.time + for_s, wire.plug_in)
-
-    return strike
+    return lambda found, unit, _rng: unplug(found, station_of(found, unit).wire, for_s)
 
 
 def deaf(found: Lab, unit: str, _rng: np.random.Generator) -> None:
@@ -215,22 +191,22 @@ def station_of(found: Lab, unit: str) -> Any:
 
 
 FAULTS = (
-    FaultAt("unplugged for good", unplugged(np.inf), LOST),
-    FaultAt("unplugged, put back after 3 s", unplugged(3.0), LOST),
-    FaultAt("its line is cut", spoilt(silent), LOST),
-    FaultAt("silent for 0.3 s", spoilt(silent, 0.3), ()),
-    FaultAt("half lines", spoilt(half), LOST),
-    FaultAt("noise on its line", spoilt(noisy), LOST),
-    FaultAt("garbage between its lines", spoilt(garbage), LOST),
-    FaultAt("it says the same for ever", spoilt(repeated), LOST),
-    FaultAt("answers 0.2 s late", late(0.2), LOST),
-    FaultAt("answers 1 s late", late(1.0), LOST),
-    FaultAt("nothing reaches it", deaf, LOST),
-    FaultAt("a device is stuck", done_in_part(0.0), ASTRAY),
-    FaultAt("a device goes the other way", done_in_part(-1.0), ASTRAY),
-    FaultAt("reset", of_electronics("press_reset"), LOST),
-    FaultAt("without power", of_electronics("switch", False), LOST),
-    FaultAt("a fault of its own", own_fault, LOST),
+    Fault("unplugged for good", unplugged(np.inf), LOST),
+    Fault("unplugged, put back after 3 s", unplugged(3.0), LOST),
+    Fault("its line is cut", spoilt(silent), LOST),
+    Fault("silent for 0.3 s", spoilt(silent, 0.3), ()),
+    Fault("half lines", spoilt(half), LOST),
+    Fault("noise on its line", spoilt(noisy), LOST),
+    Fault("garbage between its lines", spoilt(garbage), LOST),
+    Fault("it says the same for ever", spoilt(repeated), LOST),
+    Fault("answers 0.2 s late", late(0.2), LOST),
+    Fault("answers 1 s late", late(1.0), LOST),
+    Fault("nothing reaches it", deaf, LOST),
+    Fault("a device is stuck", done_in_part(0.0), ASTRAY),
+    Fault("a device goes the other way", done_in_part(-1.0), ASTRAY),
+    Fault("reset", of_electronics("press_reset"), LOST),
+    Fault("without power", of_electronics("switch", False), LOST),
+    Fault("a fault of its own", own_fault, LOST),
 )
 
 
@@ -254,7 +230,7 @@ def struck(seed: int) -> Struck:
     causes = set() if verdict is None else {verdict.code, *verdict.reasons[0].parameters}
     right = verdict is None or bool(causes & {*fault.causes, *TILT})
     ending = "went on" if verdict is None else "stopped"
-    return Struck(seed, f"{fault.name}, {law}", ending, right and rests and stands, sentence)
+    return Struck(seed, law, fault.name, ending, right and rests and stands, sentence)
 
 
 def worked(found: Lab, law: str) -> tuple[Verdict | None, str]:
@@ -279,8 +255,7 @@ def law_rows(runs: Sequence[LawOnPorts]) -> list[Row]:
     for law in dict.fromkeys(run.law for run in runs):
         own = [run for run in runs if run.law == law]
         left = np.median([run.left for run in own]) / UM
-        ends = Counter(run.verdict.outcome.value for run in own)
-        ending = ", ".join(f"{count} {word}" for word, count in sorted(ends.items()))
+        ending = endings(run.verdict.outcome.value for run in own)
         took = np.median([run.time for run in own])
         rows.append(Row(law, f"{ending}; {left:.2g} um left, {took:.0f} s", "", True))
     return rows
@@ -309,13 +284,9 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
 def measure_faults(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Let one fault happen in each of as many runs as there are seeds."""
     runs = list(spread(struck, seeds))
-    odd = tuple(f"Seed {r.seed}, {r.fault}, {r.ending}: {r.sentence}" for r in runs if not r.good)
-    names = dict.fromkeys(fault.name for fault in FAULTS)
-    notes = tuple(
-        f"{name}: " + ", ".join(f"{count} {ending}" for ending, count in sorted(ends.items())) + "."
-        for name in names
-        if (ends := Counter(r.ending for r in runs if r.fault.startswith(f"{name},")))
-    )
+    odd = tuple(f"Seed {r.seed}, {r.fault}, {r.law}, {r.ending}: {r.sentence}"
+                for r in runs if not r.good)  # fmt: skip
+    notes = by_fault((run.fault, run.ending) for run in runs)
     rows = (
         at_least("went on, or stopped with the right reason, and at rest a second later",
                  float(np.mean([run.good for run in runs])), 1.0, ".1%"),
