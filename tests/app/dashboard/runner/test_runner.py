@@ -14,6 +14,7 @@ from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.live.pace import Pace
 from equipoise.estimation.tracker import tracker
 from equipoise.io.recording.recording_file import read_recording, write_recording
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import tilt, to_euler321
 from equipoise.simulation.bench import SimulatedBench
 from tests.app.dashboard.conftest import BALANCE, Room
@@ -327,3 +328,22 @@ def test_recordings_of_one_second_have_names_of_their_own(room):
         room.turn(1)
     assert len(set(names)) == 3
     assert sorted(recordings(room.folder)) == sorted(names)
+
+
+@pytest.mark.parametrize(
+    ("preset", "series", "device"),
+    [("georgia-tech", "gimbals", "a"), ("reference-table", "wheels", "rw_x")],
+)
+def test_what_devices_report_is_drawn(preset, series, device):
+    """Angles of gimbals as the recording has them, as the speeds of wheels."""
+    bed = read_preset(preset)
+    bench = SimulatedBench(bed, 1)
+    bench.drive({device: 0.005})
+    rows = bench.read(2.0)
+    drawn = dict(parts_of(rows, bed, LiveEstimate(bed), None))[series]
+    (announced,) = [each for each in series_of(bed) if each.name == series]
+    kind = {"gimbals": "gimbal", "wheels": "wheel"}[series]
+    names = [f"{kind}:{name}" for name in announced.columns]
+    where = [rows.device_names.index(name) for name in names]
+    np.testing.assert_array_equal(drawn[:, 1:], rows.devices.values[:, where])
+    assert abs(drawn[-1, 1 + names.index(f"{kind}:{device}")]) > 0.003

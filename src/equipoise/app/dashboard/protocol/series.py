@@ -49,7 +49,11 @@ def series_of(testbed: Testbed) -> list[Series]:
         Series("masses", "Masses", testbed.mass_names, "m", TRAVEL),
         Series("limits", "Interlocks, share of limit", limits, "-", SHARE, line=1.0),
     ]
-    if testbed.wheels:
-        wheels = tuple(wheel.name for wheel in testbed.wheels)
-        found.insert(-1, Series("wheels", "Wheels", wheels, "rad/s", Unit("rad/s", 1.0)))
+    devices = (
+        ("wheels", "Wheels", testbed.wheels, Unit("rad/s", 1.0), "rad/s"),
+        ("gimbals", "Gimbals", testbed.cmgs, SHOWN["rad"], "rad"),
+    )
+    for name, title, group, unit, si in devices:
+        columns = tuple(device.name for device in group)
+        found.insert(-1, Series(name, title, columns, si, unit))
     return [one for one in found if one.columns]

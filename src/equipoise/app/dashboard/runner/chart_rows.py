@@ -88,10 +88,10 @@ def _masses(rows: Recording, testbed: Testbed) -> list[Part]:
     parts: list[Part] = []
     if rows.masses is not None:
         parts.append(("masses", np.column_stack([rows.masses.t, rows.masses.values])))
-    if rows.devices is not None and testbed.wheels:
-        names = [recorded_name(wheel) for wheel in testbed.wheels]
-        where = [rows.device_names.index(name) for name in names]
-        parts.append(("wheels", np.column_stack([rows.devices.t, rows.devices.values[:, where]])))
+    for name, devices in (("wheels", testbed.wheels), ("gimbals", testbed.cmgs)):
+        if rows.devices is not None and devices:
+            where = [rows.device_names.index(recorded_name(device)) for device in devices]
+            parts.append((name, np.column_stack([rows.devices.t, rows.devices.values[:, where]])))
     return parts
 
 

@@ -23,11 +23,16 @@ def about(station: Station, clock: int, session: str) -> Document:
         for m in bed.masses
     ]
     wheels = [{"name": recorded_name(w), "axis": w.axis.tolist()} for w in bed.wheels]
+    gyros = [
+        {"name": recorded_name(g), "gimbal": g.gimbal_axis.tolist(), "spin": g.spin_axis.tolist()}
+        for g in bed.cmgs
+    ]
     return {
         "kind": "about", "clock": clock, "session": session, "title": station.title,
         "bench": station.kind, "up": bed.up.tolist(), "tilt_limit": bed.tilt_limit,
         "layout": bed.layout,
         "gravity": bed.gravity, "masses": masses, "wheels": wheels,
+        "gyros": gyros,
         "series": [series.document() for series in series_of(bed)],
     }  # fmt: skip
 

@@ -90,6 +90,7 @@ class View {
     this.platform.stand(store.last("pose"));
     this.platform.placeMasses(store.last("masses"));
     this.platform.turnWheels(store.last("wheels"));
+    this.platform.turnGimbals(store.last("gimbals"));
     this.factor = this.balance.show(estimated(store), this.factor, this.platform.group);
     this.caption.textContent = this.factor
       ? `centre of mass × ${this.factor}, ellipsoid 1 sd`

@@ -1,4 +1,4 @@
-/** The platform: its body and axes, its masses on their rails, its wheels. Body axes. */
+/** The platform: its body and axes, its masses on their rails, wheels and gyros. Body axes. */
 
 import * as THREE from "./vendor/three.module.js";
 import { bodyOf } from "./scene_layouts.js";
@@ -18,6 +18,7 @@ export class Platform {
     this.group.add(this.body(colours), ...this.axes(colours));
     this.masses = about.masses.map((mass) => this.mass(mass, colours));
     this.wheels = about.wheels.map((wheel, i) => this.wheel(wheel, i, colours));
+    this.gyros = about.gyros.map((gyro, i) => this.gyro(gyro, about.wheels.length + i, colours));
     this.lastTurn_s = null;
   }
 
@@ -46,21 +47,36 @@ export class Platform {
 
   /** Each lies across its axis. */
   wheel(wheel, i, colours) {
+    const spun = this.rotor(colours);
+    const held = along(new THREE.Group().add(spun), wheel.axis);
+    held.position.copy(this.devicePlace(i));
+    this.group.add(held);
+    return spun;
+  }
+
+  /** A rotor that its gimbal, drawn as a line, turns. */
+  gyro({ gimbal, spin }, i, colours) {
+    const ends = [-0.3, 0.3].map((way) => gimbal.map((part) => way * this.radius * part));
+    const turned = new THREE.Group().add(along(this.rotor(colours), spin));
+    const held = new THREE.Group().add(lines(ends, colours.text), turned);
+    held.position.copy(this.devicePlace(i));
+    this.group.add(held);
+    return { turned, gimbal: new THREE.Vector3(...gimbal) };
+  }
+
+  /** A disc with spokes across +z. */
+  rotor(colours) {
     const r = 0.2 * this.radius;
     const rotor = solid(new THREE.CylinderGeometry(r, r, 0.3 * r, 24), colours.metal);
     rotor.rotation.x = Math.PI / 2;
     const height = 0.16 * r;
     const spokes = lines([[-r, 0, height], [r, 0, height], [0, -r, height], [0, r, height]], colours.panel);
-    const spun = new THREE.Group().add(rotor, spokes);
-    const held = along(new THREE.Group().add(spun), wheel.axis);
-    held.position.copy(this.wheelPlace(i));
-    this.group.add(held);
-    return spun;
+    return new THREE.Group().add(rotor, spokes);
   }
 
-  /** The places of wheels are not stated: they stand round the centre, on top. */
-  wheelPlace(i) {
-    const turn = 0.5 + (2 * Math.PI * i) / this.about.wheels.length;
+  /** The places of wheels and gyros are not stated: they stand round the centre, on top. */
+  devicePlace(i) {
+    const turn = 0.5 + (2 * Math.PI * i) / (this.about.wheels.length + this.about.gyros.length);
     const place = new THREE.Vector3(Math.cos(turn), Math.sin(turn), 0.45).multiplyScalar(0.5 * this.radius);
     return place.applyQuaternion(along(new THREE.Object3D(), this.about.up).quaternion);
   }
@@ -88,6 +104,14 @@ export class Platform {
     this.lastTurn_s = row[0];
     this.wheels.forEach((wheel, i) => {
       if (Number.isFinite(row[1 + i])) wheel.rotation.z += SLOWER * row[1 + i] * since_s;
+    });
+  }
+
+  /** @param {number[]|null} row  t, then angles (rad) of the gimbals */
+  turnGimbals(row) {
+    if (!row) return;
+    this.gyros.forEach(({ turned, gimbal }, i) => {
+      if (Number.isFinite(row[1 + i])) turned.setRotationFromAxisAngle(gimbal, row[1 + i]);
     });
   }
 }
