@@ -8,7 +8,7 @@ from equipoise.app.figures.base.arrangement import PAD, arrange
 from equipoise.app.figures.base.canvas import laid_out
 from equipoise.app.figures.base.files import rendered
 from equipoise.app.figures.base.strokes import line, panel_grid, with_legend
-from equipoise.app.figures.base.style import styled
+from equipoise.app.figures.base.style import WIDE, styled
 
 T = np.linspace(0.0, 60.0, 50)
 
@@ -92,3 +92,19 @@ def test_labels_stand_at_a_panel_that_is_narrower_than_its_place():
         axes.yaxis.label.set_visible(False)
         ticks = axes.yaxis.get_tightbbox(renderer).x0
         assert 0 < ticks - label < 0.15 * figure.dpi
+
+
+@styled
+def test_numbers_that_grow_longer_in_a_panel_of_its_place_keep_off_the_label():
+    """A higher panel has more ticks: 0.0225 where 0.02 stood before."""
+    figure = laid_out(WIDE, 6.4)
+    for axes in figure.subplots(3, 3).flat:
+        axes.plot([0.0, 1.0], [0.019, 0.0355])
+        axes.set_xticks([])
+        axes.set_ylabel("inertia_P_xz, kg m2")
+    arrange(figure)
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    for axes in figure.axes:
+        label = axes.yaxis.label.get_window_extent(renderer).x1
+        axes.yaxis.label.set_visible(False)
+        assert label < axes.yaxis.get_tightbbox(renderer).x0

@@ -1,4 +1,4 @@
-"""The places of panels on a figure, and of the labels beside them, measured once.
+"""The places of panels on a figure, and of the labels beside them, measured once or twice.
 
 Each column is as wide, and each row as high, as what is beside its panels leaves. Labels of a
 column's vertical axes stand below each other, and so do those of a row. matplotlib's own way
@@ -38,6 +38,19 @@ def arrange(figure: Figure) -> None:
     heights = [legend.get_window_extent(renderer).height for legend in figure.legends]
     head = sum(height / figure.dpi + 2 * PAD for height in heights)
     place(figure, [GUESSED] * len(figure.axes), head)
+    numbers = _numbers(figure)
+    around = _placed(figure, renderer, head)
+    if _numbers(figure) != numbers:  # a panel of another size may have other ticks
+        around = _placed(figure, renderer, head)
+    for axes, ticks in zip(figure.axes, around, strict=True):
+        axes.apply_aspect()  # as drawing does
+        width, height = axes.get_position().size * figure.get_size_inches()
+        axes.yaxis.set_label_coords(-(ticks.left + axes.yaxis.labelpad * POINT) / width, 0.5)
+        axes.xaxis.set_label_coords(0.5, -(ticks.bottom + axes.xaxis.labelpad * POINT) / height)
+
+
+def _placed(figure: Figure, renderer: Any, head: float) -> list[Beside]:
+    """Place panels by what is beside them as they are; return what their ticks took."""
     around = aligned(figure, [_ticks(axes, renderer, figure.dpi) for axes in figure.axes])
     labels = [_labels(axes, renderer, figure.dpi) for axes in figure.axes]
     grown = [
@@ -45,11 +58,13 @@ def arrange(figure: Figure) -> None:
         for ticks, label in zip(around, labels, strict=True)
     ]
     place(figure, grown, head)
-    for axes, ticks in zip(figure.axes, around, strict=True):
-        axes.apply_aspect()  # as drawing does
-        width, height = axes.get_position().size * figure.get_size_inches()
-        axes.yaxis.set_label_coords(-(ticks.left + axes.yaxis.labelpad * POINT) / width, 0.5)
-        axes.xaxis.set_label_coords(0.5, -(ticks.bottom + axes.xaxis.labelpad * POINT) / height)
+    return around
+
+
+def _numbers(figure: Figure) -> list[str]:
+    """Return the numbers at all ticks."""
+    both = [axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)]
+    return [label.get_text() for axis in both for label in axis.get_majorticklabels()]
 
 
 def place(figure: Figure, around: Sequence[Beside], head: float) -> None:
