@@ -610,6 +610,8 @@ HARDWARE = _of(
     "hardware",
     ("links/frame_transform.py", "return values @ unit.alignment.T",
      "return values @ unit.alignment", "hardware/sensors/test_sensors.py"),
+    ("links/mass_interpolation.py", "if gap < LATE and", "if",
+     "hardware/links/test_mass_interpolation.py"),
     ("boards/grbl/lines.py", "/ way.duration * MINUTE", "/ way.duration / MINUTE",
      "hardware/boards/test_grbl.py"),
     ("sensors/vectornav.py", "(v[3], v[0], v[1], v[2])", "(v[0], v[1], v[2], v[3])",

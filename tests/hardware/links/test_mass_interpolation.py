@@ -68,6 +68,19 @@ def test_a_record_that_begins_has_a_row_of_masses_however_short_it_is():
     assert (rows.t.tolist(), rows.values.tolist()) == ([1.05], [[1e-3, 1e-3, 1e-3]])
 
 
+def test_a_mass_that_is_sent_on_by_little_and_little_is_followed():
+    """20 um each 0.1 s at 8 mm/s, always with some way to go: rows are 0.1 s old at most."""
+    received = RowBuffer(MASSES)
+    for k, t in enumerate(np.arange(0.0, 5.0, 0.05)):
+        at = {name: 20e-6 * (k // 2) for name in NAMES}
+        received.masses(at, dict.fromkeys(NAMES, True), t)
+    rows = received.taken().masses
+    assert np.diff(rows.t).max() < 0.1 + 1e-9
+    asked = np.arange(1.0, 5.0, 0.05)
+    behind = 20e-6 * (np.arange(20, 100) // 2) - np.interp(asked, rows.t, rows.values[:, 0])
+    assert np.abs(behind).max() <= 20e-6 + 1e-12
+
+
 def truth(t):
     """Return where masses are: commanded at 0.5 s to go to GOALS, and home again at 2 s."""
     out = np.clip((t - 0.52) * 8e-3, 0, np.abs(GOALS)) * np.sign(GOALS)

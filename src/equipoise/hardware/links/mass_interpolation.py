@@ -7,7 +7,8 @@ arrived, as long after the answer before.
 
 Answers come when they come, some ms early or late: on the way a mass seems to go too fast or too
 slowly. That is left as it is; an answer that shows a mass on its way having hardly gone is not
-kept, or it would count as a stop.
+kept, or it would count as a stop. A mass that has hardly gone for longer than answers are late by
+is sent on by little and little, as a law does, and where it is has to be known.
 """
 
 from collections.abc import Mapping, Sequence
@@ -15,11 +16,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.hardware.transport.driver_protocol import BoardState, Phase
+from equipoise.hardware.transport.driver_protocol import POLL_MOVING, BoardState, Phase
 from equipoise.model.arrays import Bools, Series1
 from equipoise.model.hardware import Axis
 
 HARDLY = 0.5  # of the way that it could have gone, chosen: late by half the time between answers
+LATE = 1.5 * POLL_MOVING  # s, chosen: an answer late by more than half the time between two is rare
 DIGITS = 1e-6  # m, chosen: the last digit of what a board says
 
 
@@ -51,7 +53,7 @@ def rows_to(
     """
     gap = t - before.t
     taken = np.minimum(np.abs(at - before.at) / speed, gap)
-    if bool(np.any(before.going & wants & (taken < HARDLY * gap))):
+    if gap < LATE and bool(np.any(before.going & wants & (taken < HARDLY * gap))):
         return [], before
     gone = taken > 0
     new = Answer(t, at, wants & (gone | before.going))
