@@ -7,7 +7,7 @@ moved by motors: the way of the masses is nought.
 
 import numpy as np
 
-from equipoise.dynamics.sag_trim import residual_torque
+from equipoise.dynamics.sag_trim import acting_com, residual_torque
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
@@ -26,11 +26,12 @@ def manual_run(task: Task, rounds: int = ROUNDS) -> LawRun:
     options = HandOptions(task.options.target, task.options.tolerance, max_rounds=rounds)
     for step in balance_by_hand(hands, options):
         verdict = step.verdict or verdict
-    truth = hands.truth()
+    truth, sag = hands.truth(), SimulatedBench(task.testbed, task.seed).sag
+    acting = acting_com(np.asarray(truth.com), sag, task.testbed.up)
     return LawRun(
         law=BY_HAND,
         seed=task.seed,
-        offset=truth.com - task.options.target,
+        offset=acting - task.options.target,
         torque=torque_of(truth, task),
         followed=None,
         torque_before=before,

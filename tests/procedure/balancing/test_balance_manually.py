@@ -15,17 +15,22 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.placing import Placing
+from equipoise.model.recording import Recording, Samples
 from equipoise.model.units import UM
 from equipoise.model.weights import places_of, unloaded
+from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.balance_manually import (
     HandOptions,
     balance_by_hand,
     caught,
     errands,
     requested_of,
+    sag_doubt,
 )
 from equipoise.procedure.balancing.manual_estimate import first_posterior, reloaded, taught
 from equipoise.simulation.hands import SimulatedHands
+from equipoise.study.law_run import Task
+from equipoise.study.manual_run import manual_run
 from verification import manual
 from verification.manual import TARGET, half_a_millimetre_off
 
@@ -246,6 +251,29 @@ def test_an_insufficient_stock_is_reported_and_the_verdict_fails():
     assert any(step.reasons[-1].code == "target_out_of_reach" for step in steps)
     assert not steps[-1].verdict.passed
     assert steps[-1].kind == "stop"
+
+
+@pytest.mark.parametrize(
+    ("tilt_deg", "share"), [(0.0, 0.0), (30.0, 1 - 0.5 / 0.75**0.5), (80.0, 1.0)]
+)
+def test_a_declared_sag_leaves_the_height_open_by_the_tilt(tilt_deg, share):
+    """Of 1.5 sqrt(2) 30 um: 1 - cos 60 / cos 30 at 30 deg, all of it from 45 deg on."""
+    half = np.radians(tilt_deg) / 2
+    q = np.array([[1.0, 0.0, 0.0, 0.0], [np.cos(half), np.sin(half), 0.0, 0.0]])
+    record = Recording(attitude=Samples(np.array([0.0, 1.0]), q))
+    sags = replace(BED, disturbances=("sag_xx",))
+    assert sag_doubt(sags, record) == pytest.approx(1.5 * 2**0.5 * 30e-6 * share, abs=1e-12)
+    assert sag_doubt(replace(BED, disturbances=()), record) == 0.0
+
+
+def test_no_verdict_by_hand_passes_the_height_of_a_platform_that_sags():
+    """25 um of sag: the height by swings to 30 deg was 8 um off, and stated to 0.7."""
+    table = read_preset("reference-table")
+    bed = replace(table, weights=BED.weights, grids=BED.grids)
+    options = BalanceOptions(np.zeros(3), np.array([2e-6, 2e-6, 3e-6]))
+    run = manual_run(Task("by_hand", bed, 3, options, 600.0, 0.35))
+    assert abs(run.offset[2]) > options.tolerance[2]
+    assert not run.verdict.passed
 
 
 def test_a_testbed_without_weights_is_refused():

@@ -134,12 +134,12 @@ def reason_to_stop(
         return StepReason.ESTIMATE_UNUSABLE
     if bench.time - began + MEASUREMENT > options.max_time:
         return StepReason.TIME_USED_UP
-    hopeless = np.abs(knowledge.com - options.target) - 2 * knowledge.sd > options.tolerance
-    if not judged or not hopeless.any():
-        return None
-    if not movable:
+    outside = np.abs(knowledge.com - options.target) - 2 * knowledge.sd > options.tolerance
+    hopeless = judged and bool(outside.any())
+    if hopeless and not movable:
         return StepReason.MOVES_USED_UP
-    return None if comes_nearer(knowledge, bench.testbed, options) else StepReason.NEAREST
+    stuck = hopeless and not comes_nearer(knowledge, bench.testbed, options)
+    return StepReason.NEAREST if stuck else None
 
 
 def comes_nearer(knowledge: Knowledge, testbed: Testbed, options: BalanceOptions) -> bool:

@@ -19,7 +19,7 @@ from equipoise.actuators.placed_weights import load_of
 from equipoise.actuators.weight_choice import Wanted, chosen
 from equipoise.estimation.information.single_record_information import Shown, shown_by
 from equipoise.maths.attitude import tilt
-from equipoise.model.arrays import Ints
+from equipoise.model.arrays import Ints, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import MassProperties
@@ -29,6 +29,7 @@ from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import typical_sizes
 from equipoise.model.verdict import Verdict
 from equipoise.model.weights import places_of, unloaded
 from equipoise.procedure.balancing.known_platform import as_known
@@ -79,7 +80,8 @@ def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
         fresh = caught(hands.swing(), testbed)
         yield measurement_step(hands.time, fresh)
         observed = learnt(posterior, fresh, loading, testbed)
-        posterior, verdict = observed.posterior, verdict_on(observed, options)
+        doubt = sag_doubt(hands.testbed, fresh)
+        posterior, verdict = observed.posterior, verdict_on(observed, options, doubt * testbed.up)
         yield estimate_step(hands, observed, fresh)
         if verdict.passed or left == 0:
             known = as_known(hands.testbed, posterior) if verdict.passed else None
@@ -121,12 +123,28 @@ def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testb
     return Progress(taught(posterior, shown), shown)
 
 
-def verdict_on(observed: Progress, options: HandOptions) -> Verdict:
-    """Return the verdict after a recording."""
+def sag_doubt(testbed: Testbed, recording: Recording) -> float:
+    """Return what a declared sag leaves open of the height at level, one sd, m.
+
+    A sag of c along the vertical, C = c u u^T, turns a platform that is tilted by theta as
+    c sin(theta) cos(theta) does, a height h as h sin(theta). At level they are one; farther out the
+    former's slope is less by the share 1 - cos(2 theta) / cos(theta), theta the greatest tilt of
+    the recording. Of c, -3/2 (C_xx + C_yy), the usual size counts. Zero where none is declared.
+    """
+    if not testbed.in_group("sag") or recording.attitude is None:
+        return 0.0
+    most = float(np.max(tilt(recording.attitude.values, testbed.up), initial=0.0))
+    most = min(most, np.pi / 4)  # where that slope is nought
+    usual = 1.5 * float(np.linalg.norm(typical_sizes(("sag_xx", "sag_yy"))))
+    return usual * (1.0 - float(np.cos(2 * most) / np.cos(most)))
+
+
+def verdict_on(observed: Progress, options: HandOptions, doubt: Vector3) -> Verdict:
+    """Return the verdict after a recording; ``doubt``: m, one sd beside the posterior's."""
     posterior, outcome = observed.posterior, observed.shown.estimate.outcome
     if not outcome.usable:
         return unusable(outcome, posterior.com, posterior.sd)
-    return judged(posterior.com, posterior.com_covariance, options)
+    return judged(posterior.com, posterior.com_covariance + np.outer(doubt, doubt), options)
 
 
 def planned(testbed: Testbed, posterior: Posterior, loading: Ints, options: HandOptions) -> Placing:
