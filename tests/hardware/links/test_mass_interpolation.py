@@ -76,8 +76,8 @@ def test_a_mass_that_is_sent_on_by_little_and_little_is_followed():
         received.masses(at, dict.fromkeys(NAMES, True), t)
     rows = received.taken().masses
     assert np.diff(rows.t).max() < 0.1 + 1e-9
-    asked = np.arange(1.0, 5.0, 0.05)
-    behind = 20e-6 * (np.arange(20, 100) // 2) - np.interp(asked, rows.t, rows.values[:, 0])
+    requested = np.arange(1.0, 5.0, 0.05)
+    behind = 20e-6 * (np.arange(20, 100) // 2) - np.interp(requested, rows.t, rows.values[:, 0])
     assert np.abs(behind).max() <= 20e-6 + 1e-12
 
 
