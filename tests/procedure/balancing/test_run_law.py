@@ -27,7 +27,9 @@ from equipoise.procedure.balancing.run_law import (
 )
 from equipoise.procedure.steps.sampler import opened, sample_of, sampled
 from equipoise.simulation.bench import SimulatedBench
+from tests.support.emulated_lab import lab
 from tests.support.gyro_pyramid import pyramid
+from verification.laws_on_ports import bed_for
 
 EYE = np.eye(3)
 MASS, INERTIA = 10.0, np.diag([1.0, 2.0, 2.5])
@@ -436,3 +438,17 @@ def test_a_law_whose_time_will_not_do_says_so_before_it_begins(expected, warned)
         assert steps[0].time == 0.0
         assert steps[0].reasons[0].numbers == {"expected": 61.0, "available": 60.0}
         assert "scripted should take 61 s on this testbed, and has 60 s" in steps[0].sentence
+
+
+def test_a_law_keeps_its_period_though_ports_take_their_time():
+    """60 commands to masses and wheels, each answered later than at once: none adds to the next."""
+    observed = []
+    ways = [Command(shift=np.array([0.0, 0.0, 2e-6 * (k % 2)]), torque=TORQUE) for k in range(60)]
+    with lab(bed_for("fully_actuated")) as found:
+        law = reported(*ways, observed=observed)
+        for step in run_law(found.bench, law, LawOptions(max_time=1e3)):
+            if DONE in codes(step):
+                break
+    t = np.array([each.t for each in observed])
+    assert len(t) == 61
+    np.testing.assert_allclose(t - t[0], PERIOD * np.arange(61), rtol=0, atol=0.5 * PERIOD)

@@ -43,6 +43,7 @@ from equipoise.procedure.steps.verification_swing import watched_swing
 from equipoise.procedure.steps.verify import Aim, verdict
 
 TILTED = (StepReason.TILTED, LawReason.TILTED)  # as the guard says it, and as a law does
+PROMPT = 1e-6  # s, chosen: rounding of clocks, by which nothing is late
 SETTLE = 1.0  # s, chosen: after it the filter's rate and attitude can be used
 
 
@@ -61,6 +62,7 @@ class Session:
     eyes: Eyes
     hands: Hands
     parts: tuple[Recording, ...] = ()  # all that was read
+    due: float | None = None  # s, when the next sample of a law at work is due
 
 
 def lacking(card: LawCard, testbed: Testbed) -> list[Need]:
@@ -159,14 +161,22 @@ def first_sight(bench: Bench) -> tuple[Session, Sample]:
 def control(
     bench: Bench, session: Session, command: Command, period: float
 ) -> tuple[Session, Sample, Recording]:
-    """Carry a command out and return the sample a period later."""
-    testbed = bench.testbed
+    """Carry a command out and return the sample a period after the last one was due.
+
+    A law integrates by its period. Ports take their time: what a command or a read took too long is
+    made up for by the next one, unless half a period has passed.
+    """
+    testbed, now = bench.testbed, bench.time
+    due = (now if session.due is None else session.due) + period
     hands = carry_out(bench, command, session.eyes, session.hands, period)
-    fresh = bench.read(period)
+    late = bench.time + period - due
+    if late > period / 2:
+        due, late = bench.time + period, 0.0
+    fresh = bench.read(period - late if late > PROMPT else period)
     eyes = sampled(session.eyes, fresh, testbed)
     observed = sample_of(session.eyes, eyes, fresh, testbed)
     assert observed is not None  # there was one before
-    return Session(eyes, hands, (*session.parts, fresh)), observed, fresh
+    return Session(eyes, hands, (*session.parts, fresh), due), observed, fresh
 
 
 def measurement(
