@@ -1,7 +1,7 @@
 """Balancing the preset `sputnix` from random starts, judged by the truth and by its own verdict."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ WRONG = 0.025  # of all runs
 SILENT = 0.10  # chosen: of all runs, in which the verdict may be that it cannot tell
 UNPASSED = (VerdictOutcome.FAILED, VerdictOutcome.HALTED)  # what a verdict is sure of
 OPTIONS = BalanceOptions()
+AnyRun = TypeVar("AnyRun", bound=Any)  # by hand or not, with what it was off by and its outcome
 
 
 class Run(NamedTuple):
@@ -70,16 +71,27 @@ def rows_of(runs: Sequence[Run]) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
+def rms_offset(runs: Sequence[Any]) -> str:
+    """Return how far off runs ended, rms over all, um."""
+    return triple(1e6 * np.sqrt(np.mean(np.array([run.off for run in runs]) ** 2, axis=0)))
+
+
+def odd_runs(runs: Sequence[AnyRun]) -> list[AnyRun]:
+    """Return the runs that ended badly or whose verdict did not pass."""
+    return [run for run in runs if not (run.good and run.outcome is VerdictOutcome.PASSED)]
+
+
 def notes_of(runs: Sequence[Run]) -> tuple[str, ...]:
     """Return a summary, and a line for every run that ended badly or was judged wrongly."""
-    rms = triple(1e6 * np.sqrt(np.mean(np.array([run.off for run in runs]) ** 2, axis=0)))
     moves, seconds = (np.median([getattr(r, k) for r in runs]) for k in ("moves", "seconds"))
-    first = f"Median: {moves:.0f} moves, {seconds:.0f} s. RMS offset from the target {rms} um."
-    odd = [run for run in runs if not (run.good and run.outcome is VerdictOutcome.PASSED)]
+    first = (
+        f"Median: {moves:.0f} moves, {seconds:.0f} s. RMS offset from the target "
+        f"{rms_offset(runs)} um."
+    )
     return (first, *(
         f"Seed {run.seed}: off by {triple(1e6 * run.off)} um after {run.moves} moves, "
         f"{run.seconds:.0f} s; {run.sentence}"
-        for run in odd
+        for run in odd_runs(runs)
     ))  # fmt: skip
 
 

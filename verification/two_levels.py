@@ -25,7 +25,7 @@ from equipoise.procedure.balancing.balance_manually import HandOptions
 from equipoise.procedure.balancing.catalogue import OWN, balanced_by
 from equipoise.procedure.balancing.hands_then_masses import hands_then_masses
 from equipoise.simulation.hands import SimulatedHands
-from verification.balanced import SHARE, SILENT, UNPASSED, WRONG, most
+from verification.balanced import SHARE, SILENT, UNPASSED, WRONG, most, odd_runs, rms_offset
 from verification.chance import fewest
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn, triple
 
@@ -124,20 +124,19 @@ def known_rms(runs: Sequence[Run], which: slice) -> float:
 
 def notes_of(runs: Sequence[Run]) -> tuple[str, ...]:
     """Return a summary, and a line for every run that ended badly or was judged wrongly."""
-    rms = triple(1e6 * np.sqrt(np.mean(np.array([run.off for run in runs]) ** 2, axis=0)))
     counts = np.bincount([len(run.placings) for run in runs])
     shared = ", ".join(f"{n} in {k}" for k, n in enumerate(counts) if n)
     handled = np.mean([sum(run.placings) for run in runs])
     by_hand, by_masses = np.median([run.seconds for run in runs], axis=0)
     first = (
         f"Placings: {shared}. Weights handled: {handled:.1f} in the mean. Median: {by_hand:.0f} s "
-        f"of swings by hand, {by_masses:.0f} s of masses. RMS offset from the target {rms} um."
+        f"of swings by hand, {by_masses:.0f} s of masses. RMS offset from the target "
+        f"{rms_offset(runs)} um."
     )
-    odd = [run for run in runs if not (run.good and run.outcome is VerdictOutcome.PASSED)]
     return (first, *(
         f"Seed {run.seed}: off by {triple(1e6 * run.off)} um after {len(run.placings)} placings "
         f"and {run.moves} moves; {run.sentence}"
-        for run in odd
+        for run in odd_runs(runs)
     ))  # fmt: skip
 
 

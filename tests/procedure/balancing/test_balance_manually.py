@@ -31,6 +31,7 @@ from equipoise.procedure.balancing.manual_estimate import first_posterior, reloa
 from equipoise.simulation.hands import SimulatedHands
 from equipoise.study.law_run import Task
 from equipoise.study.manual_run import manual_run
+from tests.support.clumsy_hands import Clumsy
 from verification import manual
 from verification.manual import TARGET, half_a_millimetre_off
 
@@ -143,18 +144,6 @@ def test_what_hands_do_wrong_is_as_large_as_is_stated(bed):
         off = hands.truth().first_moment - before - nominal
         square += off @ weight @ off
     assert 2.05 < square / 60 < 3.95
-
-
-class Clumsy(SimulatedHands):
-    """A person who forgets the largest pile that was asked for first, and does not notice."""
-
-    forgotten = 0
-
-    def place(self, wanted):
-        if not np.any(self.forgotten):
-            self.forgotten = np.where(wanted == wanted.max(), wanted, 0)
-        super().place(wanted - self.forgotten)
-        return wanted
 
 
 def test_a_pile_that_was_forgotten_is_noticed_and_balanced_all_the_same():

@@ -32,6 +32,7 @@ from equipoise.procedure.balancing.manual_estimate import (
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.hands import SimulatedHands
 from tests.support import thorough
+from tests.support.clumsy_hands import Clumsy
 from verification import two_levels
 from verification.two_levels import in_two_levels, three_hundred_off
 
@@ -161,18 +162,6 @@ def test_the_released_platform_is_the_one_that_was_loaded():
     off = hands.truth().com - loaded.first_moment / 14.3 - [shift, 0.0, 0.0]
     assert np.abs(off).max() < 2 * UM  # 0.333 mm of 15.6 g: 0.4 um a stop
     assert hands.truth().com[0] - loaded.com[0] > 50 * UM
-
-
-class Clumsy(SimulatedHands):
-    """A person who forgets the largest pile that was asked for first, and does not notice."""
-
-    forgotten = 0
-
-    def place(self, wanted):
-        if not np.any(self.forgotten):
-            self.forgotten = np.where(wanted == wanted.max(), wanted, 0)
-        super().place(wanted - self.forgotten)
-        return wanted
 
 
 def test_a_pile_that_was_forgotten_is_noticed_and_masses_end_within_tolerance():

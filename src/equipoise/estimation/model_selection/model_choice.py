@@ -203,8 +203,8 @@ def best_groups(model: RecordModel, refused: Refused) -> list[tuple[str, ...]]:
 
 
 def likeliest(models: Sequence[RecordModel]) -> RecordModel:
-    """Return the model in which the record is most probable."""
-    return min(models, key=improbability)
+    """Return the model in which the record is most probable; one alone is not weighed."""
+    return models[0] if len(models) == 1 else min(models, key=improbability)
 
 
 def extended(

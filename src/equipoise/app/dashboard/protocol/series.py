@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from equipoise.app.text.numbers import SHOWN, TRAVEL, Unit
+from equipoise.model.devices import Device
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import PERCENT, UJ
 
@@ -36,6 +37,11 @@ class Series:
                 "sd": self.sd, "unit": unit, "chart": self.chart, "line": self.line}  # fmt: skip
 
 
+def drawn_devices(testbed: Testbed) -> dict[str, tuple[Device, ...]]:
+    """Return the devices whose reports are drawn, by the series that has them."""
+    return {"wheels": testbed.wheels, "gimbals": testbed.cmgs}
+
+
 def series_of(testbed: Testbed) -> list[Series]:
     """Return the series of a testbed, in the order of the charts."""
     limits = ("tilt",) if testbed.hardware is None else ("tilt", "rate")
@@ -49,11 +55,8 @@ def series_of(testbed: Testbed) -> list[Series]:
         Series("masses", "Masses", testbed.mass_names, "m", TRAVEL),
         Series("limits", "Interlocks, share of limit", limits, "-", SHARE, line=1.0),
     ]
-    devices = (
-        ("wheels", "Wheels", testbed.wheels, Unit("rad/s", 1.0), "rad/s"),
-        ("gimbals", "Gimbals", testbed.cmgs, SHOWN["rad"], "rad"),
-    )
-    for name, title, group, unit, si in devices:
-        columns = tuple(device.name for device in group)
-        found.insert(-1, Series(name, title, columns, si, unit))
+    units = {"wheels": ("rad/s", Unit("rad/s", 1.0)), "gimbals": ("rad", SHOWN["rad"])}
+    for name, devices in drawn_devices(testbed).items():
+        columns = tuple(device.name for device in devices)
+        found.insert(-1, Series(name, name.capitalize(), columns, *units[name]))
     return [one for one in found if one.columns]

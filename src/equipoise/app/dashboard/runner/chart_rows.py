@@ -4,6 +4,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.app.dashboard.protocol.frames import Part
+from equipoise.app.dashboard.protocol.series import drawn_devices
 from equipoise.app.dashboard.runner.live_estimate import LiveEstimate
 from equipoise.assessment.metrics.gravity_torque import gravity_torque
 from equipoise.assessment.metrics.motion_energy import motion_energy
@@ -88,7 +89,7 @@ def _masses(rows: Recording, testbed: Testbed) -> list[Part]:
     parts: list[Part] = []
     if rows.masses is not None:
         parts.append(("masses", np.column_stack([rows.masses.t, rows.masses.values])))
-    for name, devices in (("wheels", testbed.wheels), ("gimbals", testbed.cmgs)):
+    for name, devices in drawn_devices(testbed).items():
         if rows.devices is not None and devices:
             where = [rows.device_names.index(recorded_name(device)) for device in devices]
             parts.append((name, np.column_stack([rows.devices.t, rows.devices.values[:, where]])))
