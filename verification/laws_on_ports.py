@@ -4,7 +4,8 @@ Each law drives emulated devices behind real ports, by the drivers that a labora
 in lockstep: masses by a Grbl board, wheels, coils and jets by device lines, and in one more run
 gyros instead of wheels. What is compared is no law with another (``laws`` does), but whether each
 of them runs through ports as it runs in simulation: to its verdict, with nothing stopped by a
-driver or an interlock.
+driver or an interlock. That a platform tips over is the law's own doing, in either: such an end
+counts as halted, whether the law or the bench's tilt limit is the first to stop it.
 
 Faults happen to the electronics of one kind of device, at a random moment while a law drives. Each
 run ends well in one of two ways: the law goes on until a person stops it, or everything is stopped
@@ -65,7 +66,7 @@ class LawOnPorts:
     law: str
     seed: int
     verdict: Verdict
-    stopped: bool  # by a driver or an interlock
+    stopped: bool  # by a driver or an interlock, but for its tilt
     passed_falsely: bool
     left: float  # m, from the target, by the truth
     time: float  # s
@@ -121,10 +122,16 @@ def run_on_ports(task: tuple[str, int]) -> LawOnPorts:
         off = found.emulated.platform.truth().com - TARGET
         verdict = last.verdict
         assert verdict is not None
-        stopped = any(kind == "interlock" for _, kind, _ in found.events)
+        tipped = bool(causes_of(verdict) & set(TILT))
+        stopped = not tipped and any(kind == "interlock" for _, kind, _ in found.events)
         false = verdict.passed and not bool(np.all(np.abs(off) <= TOLERANCE))
         took, left = found.bench.time - let_go, float(np.linalg.norm(off))
     return LawOnPorts(law, seed, verdict, stopped, false, left, took)
+
+
+def causes_of(verdict: Verdict) -> set[str]:
+    """Return the code of a verdict, and what its first reason is about."""
+    return {verdict.code, *verdict.reasons[0].parameters}
 
 
 def spoilt(how: Any, for_s: float = np.inf) -> StrikeAt:
@@ -227,8 +234,7 @@ def struck(seed: int) -> Struck:
         found.wait(AFTER)
         rests = rested and found.at_rest
         stands = bool(np.all(found.emulated.platform.displacements == at))
-    causes = set() if verdict is None else {verdict.code, *verdict.reasons[0].parameters}
-    right = verdict is None or bool(causes & {*fault.causes, *TILT})
+    right = verdict is None or bool(causes_of(verdict) & {*fault.causes, *TILT})
     ending = "went on" if verdict is None else "stopped"
     return Struck(seed, law, fault.name, ending, right and rests and stands, sentence)
 
@@ -268,7 +274,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     well = float(np.mean([not run.stopped for run in runs]))
     false = sum(run.passed_falsely for run in runs)
     rows = (
-        at_least("run to their verdict, nothing stopped by a driver or an interlock", well, 1.0,
+        at_least("run to their verdict, nothing stopped but a platform that tips over", well, 1.0,
                  ".0%"),
         Row("passed and truly outside the tolerance", f"{false}", "0", false == 0),
         *law_rows(runs),

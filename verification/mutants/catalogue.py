@@ -43,12 +43,20 @@ MODEL = _of("model", *(
     "hardware.py", "return self.zero + (-1.0", "return self.zero - (-1.0",
     "hardware/boards/test_tmcl.py",
 ), (
+    "devices.py", "1.0 / device.inertia if", "device.inertia if",
+    "hardware/links/test_device_following.py",
+), (
+    "bench_requests.py", "abs(requested) > most", "requested > most",
+    "simulation/test_devices.py",
+), (
     "criterion.py", "if found.high <= limit", "if found.low <= limit",
     "statistical/test_verdicts.py",
 ))  # fmt: skip
 
 MATHS = _of(
     "maths",
+    ("complex_step.py", "np.imag(function(each)) / STEP", "-np.imag(function(each)) / STEP",
+     "estimation/mass_budget"),
     ("attitude.py", "2 * (x * y - w * z), 2 * (x * z + w * y)",
      "2 * (x * y + w * z), 2 * (x * z + w * y)", "maths/test_attitude.py"),
     ("attitude.py", "q = np.where(q[..., :1] < 0, -q, q)",
@@ -116,6 +124,8 @@ SENSORS = _of(
     ("gyro.py", "other if other < row else", "other if other <= row else", "sensors/test_gyro.py"),
     ("camera.py", "return less_cross(x, now.turn, 0.5)", "return less_cross(x, now.turn, -0.5)",
      "sensors/test_camera.py"),
+    ("vector_sensors.py", '"...i,...ij->...j"', '"...i,...ji->...j"',
+     "oracle/test_inertial_sensors.py"),
 )  # fmt: skip
 
 DYNAMICS = _of(
@@ -458,6 +468,10 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
+    ("steps/sampler.py", "to_matrix(attitude.q).T @ known", "to_matrix(attitude.q) @ known",
+     "procedure/steps/test_sampler.py"),
+    ("balancing/balance.py", "left = options.target - shifted(", "left = options.target + shifted(",
+     "procedure/balancing/test_balance.py::test_masses_come_nearer_while_they_have_travel_left"),
     ("identification/timed_swing.py", "main.frequency / small", "main.frequency * small",
      "procedure/identification/test_timed_swing.py"),
     ("identification/timed_swing.py", "abs(swing.shape[0])", "abs(swing.shape[1])",
@@ -520,6 +534,14 @@ PROCEDURE = _of(
 
 STUDY = _of(
     "study",
+    ("held_run.py", "first - until * drift", "first + until * drift",
+     "study/test_held_run.py"
+     "::test_rails_that_have_gone_half_their_way_follow_the_other_half"),
+    ("held_run.py", "np.array(bench.coms) - holding.target",
+     "np.array(bench.coms) + holding.target", "study/test_held_run.py"
+     "::test_a_hold_lasts_and_is_judged_from_the_end_of_the_balancing"),
+    ("manual_run.py", "offset=acting - task.options.target",
+     "offset=acting + task.options.target", "study/test_manual_run.py"),
     ("papers/null_vector.py", "now.stored - t[:, None] * torque",
      "now.stored + t[:, None] * torque", "study/papers/test_null_vector.py"),
     ("papers/null_vector.py", "float(offset @ observed.gravity)",

@@ -10,7 +10,7 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.testbed import Fault
 from equipoise.model.units import UM
-from equipoise.procedure.balancing.balance import BalanceOptions, balance
+from equipoise.procedure.balancing.balance import BalanceOptions, balance, comes_nearer
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
 
@@ -25,6 +25,17 @@ def run(testbed, options, seed=3):
 @cache
 def plain():
     return run(SPUTNIX, BalanceOptions())
+
+
+@cache
+def learnt():
+    """What is known at the end of the plain run."""
+    steps = balance(SimulatedBench(SPUTNIX, 3), BalanceOptions())
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
 
 
 def moves_of(steps):
@@ -118,3 +129,13 @@ def test_rails_that_do_not_reach_end_it(seed):
     off = np.abs(bench.truth().com - options.target)
     assert np.all(off[:2] < options.tolerance[:2])
     assert off[2] > options.tolerance[2]
+
+
+def test_masses_come_nearer_while_they_have_travel_left():
+    """20 um aside of where the run ended; not with rails that end where the masses are."""
+    known = learnt()
+    aside = BalanceOptions(target=known.com + np.array([20.0, 0.0, 0.0]) * UM)
+    assert comes_nearer(known, SPUTNIX, aside)
+    ends = [replace(mass, travel=(at - 1e-6, at + 1e-6))
+            for mass, at in zip(SPUTNIX.masses, known.displacement, strict=True)]  # fmt: skip
+    assert not comes_nearer(known, replace(SPUTNIX, masses=tuple(ends)), aside)
