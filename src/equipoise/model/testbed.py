@@ -229,6 +229,14 @@ class Testbed(Shown):
         """Return wheels, gyros, magnetorquers, coils of the cage and jets; their names differ."""
         return (*self.wheels, *self.cmgs, *self.magnetorquers, *self.coil_pairs, *self.jets)
 
+    def columns(self, kind: type[Device]) -> slice:
+        """Return where the devices of a kind stand among all, side by side; empty: there are none.
+
+        ``devices`` of a recording has its columns in this order.
+        """
+        found = [k for k, device in enumerate(self.devices) if isinstance(device, kind)]
+        return slice(found[0], found[-1] + 1) if found else slice(0, 0)
+
     def field_N(self, cage: Floats | None = None) -> Floats | None:
         """Return the nominal magnetic field (..., 3) T in laboratory axes; None: not known.
 

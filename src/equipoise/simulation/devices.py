@@ -24,7 +24,14 @@ from equipoise.actuators.reaction_wheels import wheel_momentum
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Series1, Series3, Series4
 from equipoise.model.bench_requests import checked_inputs
-from equipoise.model.devices import CoilPair, ControlMomentGyro, Device, JetPair, ReactionWheel
+from equipoise.model.devices import (
+    CoilPair,
+    ControlMomentGyro,
+    Device,
+    JetPair,
+    Magnetorquer,
+    ReactionWheel,
+)
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.clock import tick_one
 from equipoise.simulation.followers import Followers, at_rest, followed
@@ -96,13 +103,12 @@ def all_off(testbed: Testbed) -> dict[int, float]:
 
 def stored(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, Floats]:
     """Return stored momentum (n, 3) N m s and gimbal coordinates (n, 3 g) at times (s)."""
-    w, g = len(testbed.wheels), len(testbed.cmgs)
     _, Y = followed(devices, t)
-    angles = Y[:, w : w + g]
+    angles = Y[:, testbed.columns(ControlMomentGyro)]
     h, gimbals = np.zeros((len(t), 3)), np.zeros((len(t), 0))
-    if w:
-        h += wheel_momentum(testbed.wheels, Y[:, :w])
-    if g:
+    if testbed.wheels:
+        h += wheel_momentum(testbed.wheels, Y[:, testbed.columns(ReactionWheel)])
+    if testbed.cmgs:
         h += rotor_momentum(testbed.cmgs, angles)
         gimbals = gimbal_coordinates(testbed.cmgs, angles)
     return h, gimbals
@@ -110,13 +116,12 @@ def stored(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, F
 
 def effects(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, Series3]:
     """Return total dipole (n, 3) A m^2 and torque of jets (n, 3) N m at times (s), body axes."""
-    first = len(testbed.wheels) + len(testbed.cmgs)
     y, _ = followed(devices, t)
-    split, none = first + len(testbed.magnetorquers), np.zeros((len(t), 3))
-    jets = split + len(testbed.coil_pairs)
+    coils, jets = y[:, testbed.columns(Magnetorquer)], y[:, testbed.columns(JetPair)]
+    none = np.zeros((len(t), 3))
     return (
-        dipole_of(testbed.magnetorquers, y[:, first:split]) if testbed.magnetorquers else none,
-        on_platform(testbed.jets, y[:, jets:]) if testbed.jets else none,
+        dipole_of(testbed.magnetorquers, coils) if testbed.magnetorquers else none,
+        on_platform(testbed.jets, jets) if testbed.jets else none,
     )
 
 
@@ -137,7 +142,7 @@ def reported_states(
     y, Y = followed(devices, t)
     w, g = len(testbed.wheels), len(testbed.cmgs)
     mean = (Y - followed(devices, t - gap)[1]) / gap
-    jets = w + g + len(testbed.magnetorquers) + len(testbed.coil_pairs)
+    jets = len(testbed.devices) - len(testbed.jets)
     rows = np.hstack([Y[:, : w + g], y[:, w + g : jets], mean[:, jets:]])
     sd = [wheel.speed_noise for wheel in testbed.wheels] + [c.angle_noise for c in testbed.cmgs]
     noise = rng.standard_normal((len(t), w + g)) * np.array(sd)

@@ -10,7 +10,7 @@ from equipoise.control.law import Sample
 from equipoise.estimation.motion.attitude_filter import AttitudeState, followed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Vector3
-from equipoise.model.devices import at_start
+from equipoise.model.devices import CoilPair, JetPair, at_start
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
@@ -74,10 +74,10 @@ def sample_of(before: Eyes, now: Eyes, fresh: Recording, testbed: Testbed) -> Sa
 
 def impulse_of(fresh: Recording, testbed: Testbed) -> Vector3:
     """Return the impulse of the jets over a record, N m s, body axes."""
-    devices, count = fresh.devices, len(testbed.jets)
-    if devices is None or not count or len(devices) < 1:
+    devices = fresh.devices
+    if devices is None or not testbed.jets or len(devices) < 1:
         return np.zeros(3)
-    pulses: Floats = _over(devices)[-count:]
+    pulses: Floats = _over(devices)[testbed.columns(JetPair)]
     return on_platform(testbed.jets, pulses)
 
 
@@ -100,8 +100,7 @@ def field_of(
     """
     if fresh.field is not None and len(fresh.field):
         return fresh.field.values.mean(axis=0)
-    first = len(testbed.devices) - len(testbed.jets) - len(testbed.coil_pairs)
-    known = testbed.field_N(states[first : first + len(testbed.coil_pairs)])
+    known = testbed.field_N(states[testbed.columns(CoilPair)])
     if known is None or attitude is None:
         return None
     turned: Vector3 = to_matrix(attitude.q).T @ known

@@ -46,16 +46,10 @@ def _gives(stated: CoilPair, real: TrueCoilPair) -> Vector3:
     return real.gain * (stated.axis_N if real.axis_N is None else real.axis_N)
 
 
-def cage_of(testbed: Testbed) -> slice:
-    """Return where the coil pairs of a cage stand among the devices."""
-    first = len(testbed.devices) - len(testbed.jets) - len(testbed.coil_pairs)
-    return slice(first, first + len(testbed.coil_pairs))
-
-
 def field_at(field: TrueField, testbed: Testbed, devices: Followers, t: Series1) -> Series3:
     """Return the field (n, 3) T at the coils on the platform at times (s), laboratory axes."""
     y, _ = followed(devices, t)
-    total: Series3 = field.background + y[:, cage_of(testbed)] @ field.gives
+    total: Series3 = field.background + y[:, testbed.columns(CoilPair)] @ field.gives
     return total
 
 
