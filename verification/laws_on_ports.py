@@ -7,13 +7,14 @@ of them runs through ports as it runs in simulation: to its verdict, with nothin
 driver or an interlock. That a platform tips over is the law's own doing, in either: such an end
 counts as halted, whether the law or the bench's tilt limit is the first to stop it.
 
-Faults happen to the electronics of one kind of device, at a random moment while a law drives. Each
+Faults happen to the electronics of one kind of device, at a random moment while a law drives; the
+laws are all those that drive any, laws of masses alone have ``faulty_benches``. Each
 run ends well in one of two ways: the law goes on until a person stops it, or everything is stopped
 with the reason that belongs to the fault. Either way no mass moves and no device is driven a second
 later.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -23,6 +24,7 @@ from equipoise.app.runs.balancing import until_stopped
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.hardware import ActuatorUnit
 from equipoise.model.reasons.interlocks import Interlock
+from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
@@ -43,12 +45,15 @@ DRIVEN = {  # a law: the electronics that it needs from its first seconds on
     "slew_and_measure": "wheels",
     "impulse_feedback": "valves",
     "planar_magnetic": "coils",
+    "fully_actuated": "wheels",
+    "parameter_adaptive": "wheels",
+    GYROS: "gyros",
 }
 LATEST = 10.0  # s after the platform is let go, chosen: these laws drive from their first second on
 OBSERVED = 8.0  # s after a fault, chosen: then a person ends the run, if nothing else has
 SETTLED = 1.0  # s, within which all rests
 AFTER = 1.0  # s in which nothing moves after that
-LOST = ("actuator wheels", "actuator coils", "actuator valves", Interlock.DEVICE_FAULT)
+LOST = (*(f"actuator {unit}" for unit in sorted({*DRIVEN.values()})), Interlock.DEVICE_FAULT)
 ASTRAY = (*LOST, Interlock.NOT_FOLLOWING, Interlock.DEVICE_LIMIT)
 
 
@@ -112,13 +117,17 @@ def options(longest: float = LONGEST) -> BalanceOptions:
     return BalanceOptions(TARGET, TOLERANCE, FIRST_MOVES, longest)
 
 
+def steps_of(law: str, found: Lab) -> Iterator[Step]:
+    """Return the steps of a law on the bench of a lab."""
+    return balanced_by(law.partition(",")[0], found.bench, options(), LONGEST)
+
+
 def run_on_ports(task: tuple[str, int]) -> LawOnPorts:
     """Run a law on the platform of a seed."""
     law, seed = task
     with lab(bed_for(law), seed) as found:
         let_go = found.emulated.time
-        name = law.partition(",")[0]
-        *_, last = until_stopped(found.bench, balanced_by(name, found.bench, options(), LONGEST))
+        *_, last = until_stopped(found.bench, steps_of(law, found))
         off = found.emulated.platform.truth().com - TARGET
         verdict = last.verdict
         assert verdict is not None
@@ -242,7 +251,7 @@ def struck(seed: int) -> Struck:
 def worked(found: Lab, law: str) -> tuple[Verdict | None, str]:
     """Return the verdict of a law that was stopped, with its sentence; None: a person ended it."""
     try:
-        *_, last = until_stopped(found.bench, balanced_by(law, found.bench, options(), LONGEST))
+        *_, last = until_stopped(found.bench, steps_of(law, found))
     except Ended:
         found.bench.stop()
         return None, ""
@@ -298,9 +307,9 @@ def measure_faults(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
                  float(np.mean([run.good for run in runs])), 1.0, ".1%"),
     )  # fmt: skip
     claim = (
-        f"Laws {', '.join(DRIVEN)} on the preset reference-table through ports; one of "
-        f"{len(FAULTS)} faults happens to the electronics of wheels, coils or jets at a random "
-        f"moment of the first {LATEST:g} s; {OBSERVED:g} s later a person ends what goes on. "
-        f"{len(seeds)} seeds."
+        f"All laws that drive more than masses, on the preset reference-table through ports: "
+        f"{'; '.join(DRIVEN)}. One of {len(FAULTS)} faults happens to the electronics of wheels, "
+        f"gyros, coils or jets at a random moment of the first {LATEST:g} s; {OBSERVED:g} s later "
+        f"a person ends what goes on. {len(seeds)} seeds."
     )
     return Result("faulty_devices", claim, rows, (*notes, *odd))
