@@ -13,6 +13,7 @@ from equipoise.actuators.sliding_masses import (
     com_shift,
     com_shift_covariance,
     displacements_for,
+    gain_by_one,
     inertia_shift,
     mass_maps,
 )
@@ -201,3 +202,29 @@ def test_a_mass_that_goes_further_than_reported_shifts_as_one_reported_there():
     d = np.array([8e-3, -4e-3, 12e-3])
     found = inertia_shift(mass_maps(wide), d)
     np.testing.assert_allclose(found, inertia_shift(mass_maps(plain), 1.25 * d), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("shift_um", "now_mm", "gain_um"),
+    [
+        ((30.0, 0.0, 0.0), 0.0, 30.0),  # 0.6 mm are a whole number of steps
+        ((-32.0, 0.0, 0.0), 0.0, 30.0),  # 0.64 mm are six steps of 0.1 mm
+        ((1000.0, 0.0, 0.0), 0.0, 500.0),  # the rail ends after 10 mm
+        ((30.0, 0.0, 0.0), 10.0, 0.0),  # where the mass stands already
+        ((0.0, 30.0, 0.0), 0.0, 0.0),  # across the rail
+    ],
+)
+def test_what_one_mass_gains_by_hand(shift_um, now_mm, gain_um):
+    """0.5 kg of 10 kg along x: 50 um of the centre of mass for each mm, 5 um for each step."""
+    one = [rail(0.5, [0, 0, 0], [1, 0, 0], resolution=1e-4, travel=(-0.01, 0.01))]
+    gain = gain_by_one(one, 10.0, np.array([now_mm * 1e-3]), 1e-6 * np.array(shift_um))
+    assert gain == pytest.approx(1e-6 * gain_um, abs=1e-12)
+
+
+@given(displacements, arrays(np.float64, 3, elements=st.floats(-1e-4, 1e-4)))
+def test_all_masses_gain_no_less_than_one(now, shift):
+    """To what a step more is worth."""
+    goal = displacements_for(SKEW, MASS, now, shift)
+    left = shift - com_shift(mass_maps(SKEW), MASS, goal - now)
+    gain = np.abs(shift).sum() - np.abs(left).sum()
+    assert gain_by_one(SKEW, MASS, now, shift) <= gain + 3 * HALF_STEP

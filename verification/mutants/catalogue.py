@@ -86,6 +86,8 @@ MATHS = _of(
 
 ACTUATORS = _of(
     "actuators",
+    ("sliding_masses.py", "left = shift - whole[", "left = shift + whole[",
+     "actuators/test_sliding_masses.py::test_what_one_mass_gains_by_hand"),
     ("travel_times.py", "sd = slack / np.sqrt(12)", "sd = slack",
      "actuators/test_travel_times.py"),
     ("travel_errors.py", "effect = weight * slowness(", "effect = -weight * slowness(",

@@ -27,8 +27,8 @@ from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3, Vector6
 from equipoise.model.testbed import SlidingMass, Testbed
 
 ERRORS, WAYS = 1e6, 1e3  # 1/m, chosen: the programme counts errors in um and ways in mm
-
-
+FINE = 1e-9  # m, chosen: a step of masses that have none
+ROUNDING = 1e-9  # of a step
 PARALLEL = 0.99  # cosine, chosen: rails of one direction
 
 
@@ -121,7 +121,7 @@ def displacements_for(
     low = np.array([m.travel[0] for m in masses]) / step - steps_now
     high = np.array([m.travel[1] for m in masses]) / step - steps_now
     upper = np.concatenate(
-        [np.floor(high + 1e-9).clip(0), np.floor(-low + 1e-9).clip(0), np.full(7, np.inf)]
+        [np.floor(high + ROUNDING).clip(0), np.floor(-low + ROUNDING).clip(0), np.full(7, np.inf)]
     )
     whole = np.array([int(m.resolution > 0) for m in masses], dtype=np.int64)
     integer = np.concatenate([whole, whole, np.zeros(7, dtype=np.int64)])
@@ -138,3 +138,22 @@ def displacements_for(
     forward, backward = answer.x[:k], answer.x[k : 2 * k]
     go = np.where(whole > 0, np.round(forward - backward), forward - backward)
     return now + step * go
+
+
+def gain_by_one(
+    masses: Sequence[SlidingMass], total_mass: float, now: Floats, shift: Vector3
+) -> float:
+    """Return by how much (m) one mass alone comes nearer to a shift (m), summed over the axes.
+
+    With whole steps on its rail, along the shift: a mass that would go too far stops before. It is
+    no more than what ``displacements_for`` gains with all masses, which takes longer to find.
+    """
+    per_m = mass_maps(masses).first_moment / total_mass
+    low, high = (np.array([m.travel[end] for m in masses]) - now for end in (0, 1))
+    step = np.array([max(m.resolution, FINE) for m in masses])
+    way = per_m @ shift / np.sum(per_m**2, axis=1)
+    way = np.clip(way, np.minimum(low, 0.0), np.maximum(high, 0.0))
+    whole = np.trunc(way / step + ROUNDING * np.sign(way)) * step
+    left = shift - whole[:, None] * per_m
+    gained = np.abs(shift).sum() - np.abs(left).sum(axis=1)
+    return float(np.max(gained, initial=0.0))
