@@ -8,10 +8,9 @@ driver or an interlock. That a platform tips over is the law's own doing, in eit
 counts as halted, whether the law or the bench's tilt limit is the first to stop it.
 
 Faults happen to the electronics of one kind of device, at a random moment while a law drives; the
-laws are all those that drive any, laws of masses alone have ``faulty_benches``. Each
-run ends well in one of two ways: the law goes on until a person stops it, or everything is stopped
-with the reason that belongs to the fault. Either way no mass moves and no device is driven a second
-later.
+laws are all those that drive any, laws of masses alone have ``faulty_benches``. Each run ends well
+in one of two ways: the law goes on until a person stops it, or everything is stopped with the
+reason that belongs to the fault. Either way no mass moves and no device is driven a second later.
 """
 
 from collections.abc import Callable, Iterator, Sequence
