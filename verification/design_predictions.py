@@ -120,7 +120,7 @@ def goals_for(testbed: Testbed, now: Array, wanted: Array) -> Array:
     rails = rails_of(masses, total)
     if rails.tier.any() or np.count_nonzero(rails.gain) > len(masses):
         return allocate(rails, now, wanted + com_shift(mass_maps(masses), total, now))
-    return displacements_for(masses, total, now, wanted)
+    return displacements_for(testbed, now, wanted)
 
 
 def is_expected_to_pay(

@@ -19,8 +19,8 @@ from equipoise.actuators.sliding_masses import (
 )
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import parallel_axis
-from equipoise.model.testbed import SlidingMass
-from tests.support.builders import MASS, maps, sliding_masses
+from equipoise.model.testbed import SlidingMass, Testbed
+from tests.support.builders import MASS, maps, platform, sliding_masses
 
 THREE = sliding_masses()
 # m, what half a motor step does to the centre; a step more is worth an error of 1e-4 um less
@@ -36,6 +36,10 @@ def rail(mass, home, axis, **more) -> SlidingMass:
         (-0.05, 0.05), 1e-3, 0.0, 0.0, 0.01,
     )  # fmt: skip
     return replace(plain, **more)
+
+
+def platform_with(masses) -> Testbed:
+    return replace(platform(), masses=tuple(masses))
 
 
 SKEW = (
@@ -96,7 +100,7 @@ def test_there_and_back_within_half_a_step(now, wanted):
     """A shift that the rails allow is made to half a motor step on each axis."""
     now = np.round(now, 3)
     shift = com_shift(maps(), MASS, wanted - now)
-    d = displacements_for(THREE, MASS, now, shift)
+    d = displacements_for(platform_with(THREE), now, shift)
     assert np.abs(com_shift(maps(), MASS, d - now) - shift).max() <= HALF_STEP
     assert np.abs(d).max() <= 0.05 + 1e-12
     np.testing.assert_allclose(d * 1e3, np.round(d * 1e3), atol=1e-9)
@@ -106,7 +110,7 @@ def test_there_and_back_within_half_a_step(now, wanted):
 def test_without_steps_the_way_back_is_exact(wanted):
     """Resolution 0: any place will do, and the shift is met to a nanometre."""
     free = sliding_masses(resolution=0.0)
-    d = displacements_for(free, MASS, np.zeros(3), com_shift(maps(), MASS, wanted))
+    d = displacements_for(platform_with(free), np.zeros(3), com_shift(maps(), MASS, wanted))
     np.testing.assert_allclose(d, wanted, atol=1e-6)
 
 
@@ -115,14 +119,14 @@ def test_skew_rails_there_and_back(wanted):
     """Axes that are not at right angles: steps that lead somewhere lead back there."""
     wanted = np.round(wanted, 3)
     shift = com_shift(mass_maps(SKEW), MASS, wanted)
-    d = displacements_for(SKEW, MASS, np.zeros(3), shift)
+    d = displacements_for(platform_with(SKEW), np.zeros(3), shift)
     np.testing.assert_allclose(d, wanted, atol=1e-9)
 
 
 def test_unreachable_is_approached():
     """A shift of 200 um along z needs 183 mm: the rail's end, and x and y are met all the same."""
     shift = np.array([10e-6, -5e-6, 200e-6])
-    d = displacements_for(THREE, MASS, np.zeros(3), shift)
+    d = displacements_for(platform_with(THREE), np.zeros(3), shift)
     np.testing.assert_allclose(d, [0.009, -0.005, 0.05])  # 9.13 and 4.56 steps
 
 
@@ -130,7 +134,7 @@ def test_where_a_mass_stands_off_its_steps_it_still_moves_by_whole_steps():
     """From 0.4 mm, steps of 1 mm lead to 10.4 mm."""
     now = np.array([0.0004, 0.0, 0.0])
     shift = np.array([0.0101 * 0.0156 / MASS, 0.0, 0.0])
-    d = displacements_for(THREE, MASS, now, shift)
+    d = displacements_for(platform_with(THREE), now, shift)
     np.testing.assert_allclose(d, [0.0104, 0.0, 0.0], atol=1e-12)
 
 
@@ -149,7 +153,7 @@ def test_least_error_then_least_travel(seed):
     rng = np.random.default_rng(seed)
     masses = tuple(replace(m, travel=(-0.005, 0.005)) for m in SKEW)
     shift = rng.uniform(-1, 1, 3) * 12e-6
-    d = displacements_for(masses, MASS, np.zeros(3), shift)
+    d = displacements_for(platform_with(masses), np.zeros(3), shift)
     error = np.abs(d @ mass_maps(masses).first_moment / MASS - shift).sum()
     least_error, least_travel = best_of_grid(masses, shift)
     assert error == pytest.approx(least_error, abs=1e-11)
@@ -164,7 +168,7 @@ def test_redundant_masses_take_the_shortest_way():
     """
     heavy = tuple(replace(m, name=m.name + "2", mass=3 * m.mass) for m in THREE)
     shift = np.full(3, 9 * 3 * 0.0156e-3 / MASS)
-    d = displacements_for(THREE + heavy, MASS, np.zeros(6), shift)
+    d = displacements_for(platform_with(THREE + heavy), np.zeros(6), shift)
     np.testing.assert_allclose(d, [0, 0, 0, 0.009, 0.009, 0.009], atol=1e-12)
 
 
@@ -172,8 +176,8 @@ def test_twins_share_only_when_in_haste():
     """Two equal masses: alone, one goes all the way; in haste they share it and finish sooner."""
     twins = (THREE[0], replace(THREE[0], name="x2"))
     shift = np.array([20 * 0.0156e-3 / MASS, 0.0, 0.0])
-    alone = displacements_for(twins, MASS, np.zeros(2), shift)
-    hasty = displacements_for(twins, MASS, np.zeros(2), shift, haste=1.0)
+    alone = displacements_for(platform_with(twins), np.zeros(2), shift)
+    hasty = displacements_for(platform_with(twins), np.zeros(2), shift, haste=1.0)
     np.testing.assert_allclose(np.sort(alone), [0.0, 0.02], atol=1e-12)
     np.testing.assert_allclose(hasty, [0.01, 0.01], atol=1e-12)
 
@@ -224,7 +228,7 @@ def test_what_one_mass_gains_by_hand(shift_um, now_mm, gain_um):
 @given(displacements, arrays(np.float64, 3, elements=st.floats(-1e-4, 1e-4)))
 def test_all_masses_gain_no_less_than_one(now, shift):
     """To what a step more is worth."""
-    goal = displacements_for(SKEW, MASS, now, shift)
+    goal = displacements_for(platform_with(SKEW), now, shift)
     left = shift - com_shift(mass_maps(SKEW), MASS, goal - now)
     gain = np.abs(shift).sum() - np.abs(left).sum()
     assert gain_by_one(SKEW, MASS, now, shift) <= gain + 3 * HALF_STEP

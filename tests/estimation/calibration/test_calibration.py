@@ -100,11 +100,9 @@ def test_a_calibrated_testbed_balances_better(bed, found):
     real = mass_maps(real_masses(bed.masses, bed.truth.drives))
     only = [replace(m, travel=(0.0, 0.0)) if m.name == "x2" else m for m in bed.masses]
     better = [replace(m, travel=(0.0, 0.0)) if m.name == "x2" else m for m in mended.masses]
-    fine = [[replace(m, resolution=0.0) for m in masses] for masses in (only, better)]
-    left = [
-        np.linalg.norm(com_shift(real, total, displacements_for(m, total, np.zeros(6), shift))
-                       - shift) for m in fine
-    ]  # fmt: skip
+    fine = [tuple(replace(m, resolution=0.0) for m in masses) for masses in (only, better)]
+    goals = [displacements_for(replace(bed, masses=m), np.zeros(6), shift) for m in fine]
+    left = [np.linalg.norm(com_shift(real, total, goal) - shift) for goal in goals]
     assert left[0] > 1e-6  # 5 % and 3 deg of 20 um
     assert left[1] < 0.5 * left[0]
 

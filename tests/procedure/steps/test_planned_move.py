@@ -70,7 +70,7 @@ def missed(seed):
     """By how much (m) a platform's second move misses what was predicted, and its covariance."""
     bench = SimulatedBench(UNB, seed)
     known = learn(None, bench.read(MEASUREMENT), UNB)
-    goal = displacements_for(UNB.masses, UNB.body.mass, np.zeros(3), BELOW - known.com)
+    goal = displacements_for(UNB, np.zeros(3), BELOW - known.com)
     known = learn(known, moved(bench, goal), UNB)
     now = known.displacement
     targets = now - np.sign(now) * STEPS

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import displacements_for, gain_by_one
+from equipoise.actuators.sliding_masses import displacements_for, gain_by_one, shift_by
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
@@ -23,9 +23,9 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
-from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
+from equipoise.procedure.steps.joint_fit import Knowledge, learn, stood, without_stops
 from equipoise.procedure.steps.plain_steps import com_step, measurement_step, verdict_step
-from equipoise.procedure.steps.planned_move import planned_move
+from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
 from equipoise.procedure.steps.verify import Aim, fresh_enough, is_known, is_within, verdict
@@ -152,8 +152,9 @@ def comes_nearer(knowledge: Knowledge, testbed: Testbed, options: BalanceOptions
     total, now = testbed.body.mass, knowledge.displacement
     if gain_by_one(testbed.masses, total, now, off) > 3 * float(least.max()):
         return True
-    goal = displacements_for(testbed.masses, total, now, off)
-    left = options.target - shifted(knowledge, testbed, goal)
+    goal = displacements_for(testbed, now, off, stood=stood(knowledge, testbed))
+    com, _ = without_stops(knowledge, testbed, goal != now)
+    left = options.target - com - shift_by(testbed, goal - now)
     return bool(np.any(np.abs(off) - np.abs(left) > least))
 
 
@@ -175,8 +176,9 @@ def decide(
         return None
     hurried = bench.time - began > options.max_time - RETURN
     learning = not hurried and worth_learning(knowledge, testbed, left, options)
-    aim = below(knowledge, options.target, testbed) if learning else options.target
-    option = option_for(view, aim)
+    option = option_for(view, below(knowledge, options.target, testbed)) if learning else None
+    if option is None or left <= moves_back(option, knowledge, testbed, options):
+        learning, option = False, option_for(view, options.target)
     pressed = bench.time - began > options.max_time - SETTLE
     if not pressed and not good_moment(view, option):
         return None
@@ -198,6 +200,15 @@ def worth_learning(
     return left > 1 and (first or (vague and not low))
 
 
+def moves_back(
+    option: Option, knowledge: Knowledge, testbed: Testbed, options: BalanceOptions
+) -> int:
+    """Return how many moves come after a way below: back, and a trim where stops are rough."""
+    stops = stops_covariance(testbed, option.targets != knowledge.displacement)
+    rough = np.sqrt(np.diag(stops)) > KNOWN * options.close
+    return 2 if rough.any() else 1
+
+
 def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
     """Return a place (m) well below both the target and the present centre of mass.
 
@@ -212,7 +223,7 @@ def urgent(view: Outlook, target: Vector3, may_brake: bool) -> bool:
     """Say whether to move because of the tilt.
 
     When staying would pass the guard: if a direct move one measurement later would pass it too; but
-    while the estimate is uncertain, only if even the safest move then would pass the limit.
+    while the estimate is uncertain, only if even the safest move then would pass the brink.
     """
     knowledge, up = view.knowledge, view.testbed.up
     later, hopeful = replace(view, wait=MEASUREMENT), replace(view, cautious=False)
@@ -222,9 +233,7 @@ def urgent(view: Outlook, target: Vector3, may_brake: bool) -> bool:
     sideways = knowledge.sd - (knowledge.sd @ up) * up
     if float(np.linalg.norm(sideways)) < INFORMED * off:
         return bool(option_for(later, target).peak > view.guard)
-    return bool(
-        safest(replace(hopeful, wait=MEASUREMENT), target, may_brake).peak > view.testbed.tilt_limit
-    )
+    return bool(safest(replace(hopeful, wait=MEASUREMENT), target, may_brake).peak > view.brink)
 
 
 def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> bool:

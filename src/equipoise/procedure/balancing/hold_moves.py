@@ -20,8 +20,7 @@ def correction(com: Vector3, displacement: Floats, testbed: Testbed, options: Ai
     now = np.abs(com - options.target) / options.tolerance
     if now.max() < ACT:
         return None
-    masses, total = testbed.masses, testbed.body.mass
-    goal = displacements_for(masses, total, displacement, options.target - com)
+    goal = displacements_for(testbed, displacement, options.target - com)
     change = shift_by(testbed, goal - displacement)
     then = np.abs(com + change - options.target) / options.tolerance
     return goal if then.max() < now.max() - GAIN else None
@@ -74,5 +73,5 @@ def nearest_offset(
     com: Vector3, displacement: Floats, testbed: Testbed, target: Vector3
 ) -> Vector3:
     """Return how far off its target (m) the centre of mass stays, whatever the masses do."""
-    goal = displacements_for(testbed.masses, testbed.body.mass, displacement, target - com)
+    goal = displacements_for(testbed, displacement, target - com)
     return np.abs(com + shift_by(testbed, goal - displacement) - target)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from equipoise.actuators.sliding_masses import displacements_for
 from equipoise.model.arrays import Floats, Vector3
+from equipoise.procedure.steps.joint_fit import stood
 from equipoise.procedure.steps.tilt_prediction import Outlook
 
 CALM = 0.5  # of the tilt limit, chosen: a peak at which the moment does not matter
@@ -31,8 +32,7 @@ class Option:
 def option_for(view: Outlook, aim: Vector3, brake: bool = False, haste: float = 0.0) -> Option:
     """Return the move that brings the centre of mass to ``aim`` (m)."""
     now, shift = view.knowledge.displacement, aim - view.knowledge.com
-    masses, total = view.testbed.masses, view.testbed.body.mass
-    goal = displacements_for(masses, total, now, shift, haste)
+    goal = displacements_for(view.testbed, now, shift, haste, stood(view.knowledge, view.testbed))
     return Option(goal, view.peak(goal), brake)
 
 

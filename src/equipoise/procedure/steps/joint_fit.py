@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import shift_by, shift_by_travel
+from equipoise.actuators.sliding_masses import shift_by_travel
 from equipoise.assessment.record_checks.mass_flicker import without_flicker
 from equipoise.dynamics.lamp_warmth import warms
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
@@ -152,11 +152,6 @@ def fitted_in(setup: FitSetup, before: Knowledge | None, found: tuple[str, ...])
     return Knowledge(recording, fitted, cut_short(estimate, params.budget.unfinished), found)
 
 
-def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:
-    """Return where the centre of mass should be with the masses at ``targets`` (m)."""
-    return knowledge.com + shift_by(testbed, targets - knowledge.displacement)
-
-
 def without_stops(knowledge: Knowledge, testbed: Testbed, moving: Bools) -> tuple[Vector3, Matrix3]:
     """Return ``com`` and its covariance (m, m^2) less the stops' errors of masses about to move.
 
@@ -170,6 +165,13 @@ def without_stops(knowledge: Knowledge, testbed: Testbed, moving: Bools) -> tupl
             rows[:, error] -= gain[i]
     values = np.array([parameter.value for parameter in estimate.parameters])
     return rows @ values, rows @ estimate.covariance @ rows.T
+
+
+def stood(knowledge: Knowledge, testbed: Testbed) -> Floats:
+    """Return by how much each mass stands off where it was sent (m), as far as it is known."""
+    estimate = knowledge.estimate
+    last = [stops_of(estimate, name)[-1:] for name in testbed.mass_names]
+    return np.array([sum(estimate.parameters[k].value for k in found) for found in last])
 
 
 def stops_of(estimate: Estimate, mass: str) -> list[int]:

@@ -17,6 +17,7 @@ from equipoise.procedure.steps.joint_fit import Knowledge
 HORIZON = 25.0  # s, chosen: a swing of a platform whose centre of mass is 100 um low
 GRID = 0.5  # s
 GUARD = 0.85  # of the tilt limit, chosen
+BRINK = 0.95  # of the tilt limit, chosen: the rest is for errors of the prediction
 
 
 def travel(now: Floats, targets: Floats, testbed: Testbed, wait: float) -> tuple[Series1, Floats]:
@@ -59,6 +60,11 @@ class Outlook:
     def guard(self) -> float:
         """Return the tilt (rad) that no plan should pass."""
         return GUARD * self.testbed.tilt_limit
+
+    @property
+    def brink(self) -> float:
+        """Return the tilt (rad) that the safest move must still keep within."""
+        return BRINK * self.testbed.tilt_limit
 
     @property
     def coms(self) -> list[Vector3]:
