@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from equipoise.actuators import sliding_masses as sliding
 from equipoise.actuators.sliding_masses import (
     com_shift,
     com_shift_covariance,
@@ -138,26 +139,70 @@ def test_where_a_mass_stands_off_its_steps_it_still_moves_by_whole_steps():
     np.testing.assert_allclose(d, [0.0104, 0.0, 0.0], atol=1e-12)
 
 
-def best_of_grid(masses, shift):
-    """Try every whole number of millimetres: least error (sum over axes), then least travel."""
+def best_of_grid(masses, shift, stood):
+    """Try every whole number of millimetres: least error, new stops counted, then least travel."""
     ways = np.array(list(itertools.product(np.arange(-5, 6) * 1e-3, repeat=len(masses))))
-    moment = mass_maps(masses).first_moment / MASS
-    error = np.abs(ways @ moment - shift).sum(axis=1)
+    error = left_by(masses, ways, shift, stood)
     least = error <= error.min() + 1e-12
     return error.min(), np.abs(ways[least]).sum(axis=1).min()
 
 
+def left_by(masses, ways, shift, stood):
+    """Errors summed over the axes (m), the sd of what masses that move stop at with them."""
+    moment = mass_maps(masses).first_moment / MASS
+    moved = (ways != 0).astype(float)
+    stops = moved @ (np.array([m.accuracy for m in masses])[:, None] * np.abs(moment))
+    return (np.abs(ways @ moment - (moved * stood) @ moment - shift) + stops).sum(axis=-1)
+
+
+@pytest.mark.parametrize("accuracy", [0.0, 5e-4])
 @pytest.mark.parametrize("seed", range(8))
-def test_least_error_then_least_travel(seed):
-    """Against all 11^3 places on skew rails of 5 mm, reachable or not."""
+def test_least_error_then_least_travel(seed, accuracy):
+    """Against all 11^3 places on skew rails of 5 mm, reachable or not, whatever the stops do."""
     rng = np.random.default_rng(seed)
-    masses = tuple(replace(m, travel=(-0.005, 0.005)) for m in SKEW)
-    shift = rng.uniform(-1, 1, 3) * 12e-6
-    d = displacements_for(platform_with(masses), np.zeros(3), shift)
-    error = np.abs(d @ mass_maps(masses).first_moment / MASS - shift).sum()
-    least_error, least_travel = best_of_grid(masses, shift)
+    masses = tuple(replace(m, travel=(-0.005, 0.005), accuracy=accuracy) for m in SKEW)
+    shift, stood = rng.uniform(-1, 1, 3) * 12e-6, accuracy * rng.normal(size=3)
+    d = displacements_for(platform_with(masses), np.zeros(3), shift, stood=stood)
+    error = left_by(masses, d, shift, stood)
+    least_error, least_travel = best_of_grid(masses, shift, stood)
     assert error == pytest.approx(least_error, abs=1e-11)
     assert np.abs(d).sum() <= least_travel + 1e-9
+
+
+COARSE = rail(0.5, [0, 0, 0], [1, 0, 0], name="coarse", resolution=2e-5, accuracy=1e-5)
+DELICATE = rail(0.05, [0, 0, 0], [1, 0, 0], name="fine", resolution=1e-5, accuracy=5e-6)
+
+
+@pytest.mark.parametrize(
+    ("shift_um", "coarse_mm", "fine_mm"),
+    [
+        (0.5, 0.0, 0.2),  # a step of the coarse mass, which stops to 0.25 um: by the fine one
+        (130.0, 5.2, 0.0),  # beyond what the fine one has: 5.2 mm are enough, to the step
+        (0.01, 0.0, 0.0),  # less than a stop of the fine one adds
+    ],
+)
+def test_a_fine_mass_corrects_what_it_can(shift_um, coarse_mm, fine_mm):
+    """500 g shift 20 kg by 25 um for each mm, 50 g by 2.5 um; stops err by 0.25 and 0.0125 um."""
+    bed = platform_with([COARSE, DELICATE])
+    bed = replace(bed, body=replace(bed.body, mass=20.0))
+    d = displacements_for(bed, np.zeros(2), np.array([shift_um * 1e-6, 0, 0]))
+    np.testing.assert_allclose(d, [coarse_mm * 1e-3, fine_mm * 1e-3], atol=1e-12)
+
+
+def test_a_mass_that_moves_leaves_its_stop_behind():
+    """It stands 0.4 mm too far, and 2 mm are wanted: 2.4 mm from where it was sent, whole steps."""
+    one = [rail(0.5, [0, 0, 0], [1, 0, 0], resolution=1e-4)]
+    wanted = com_shift(mass_maps(one), MASS, np.array([2e-3]))
+    d = displacements_for(platform_with(one), np.zeros(1), wanted, stood=np.array([4e-4]))
+    np.testing.assert_allclose(d, [2.4e-3], atol=1e-12)
+
+
+def test_a_search_that_is_cut_short_keeps_to_the_rails(monkeypatch):
+    """With hardly any of its nodes it answers all the same, by whole steps."""
+    monkeypatch.setattr(sliding, "NODES", 1)
+    d = displacements_for(platform_with(SKEW), np.zeros(3), np.array([1e-5, -2e-5, 3e-5]))
+    assert np.abs(d).max() <= 0.05
+    np.testing.assert_allclose(d * 1e3, np.round(d * 1e3), atol=1e-9)
 
 
 def test_redundant_masses_take_the_shortest_way():
@@ -223,6 +268,13 @@ def test_what_one_mass_gains_by_hand(shift_um, now_mm, gain_um):
     one = [rail(0.5, [0, 0, 0], [1, 0, 0], resolution=1e-4, travel=(-0.01, 0.01))]
     gain = gain_by_one(one, 10.0, np.array([now_mm * 1e-3]), 1e-6 * np.array(shift_um))
     assert gain == pytest.approx(1e-6 * gain_um, abs=1e-12)
+
+
+def test_what_a_stop_adds_is_taken_off_what_one_mass_gains():
+    """It stops within 0.1 mm: 5 um."""
+    rough = [rail(0.5, [0, 0, 0], [1, 0, 0], resolution=1e-4, accuracy=1e-4)]
+    gain = gain_by_one(rough, 10.0, np.zeros(1), np.array([30e-6, 0, 0]))
+    assert gain == pytest.approx(25e-6)
 
 
 @given(displacements, arrays(np.float64, 3, elements=st.floats(-1e-4, 1e-4)))

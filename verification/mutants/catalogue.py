@@ -472,7 +472,7 @@ PROCEDURE = _of(
     "procedure",
     ("steps/sampler.py", "to_matrix(attitude.q).T @ known", "to_matrix(attitude.q) @ known",
      "procedure/steps/test_sampler.py"),
-    ("balancing/balance.py", "left = options.target - shifted(", "left = options.target + shifted(",
+    ("balancing/balance.py", "left = options.target - com", "left = options.target + com",
      "procedure/balancing/test_balance.py::test_masses_come_nearer_while_they_have_travel_left"),
     ("identification/timed_swing.py", "main.frequency / small", "main.frequency * small",
      "procedure/identification/test_timed_swing.py"),

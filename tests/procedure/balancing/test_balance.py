@@ -7,14 +7,24 @@ import numpy as np
 import pytest
 
 from equipoise.io.testbed.presets import read_preset
-from equipoise.model.reasons.step_reasons import StepReason
+from equipoise.maths.attitude import exponential
+from equipoise.model.reasons.step_reasons import MoveReason, StepReason
 from equipoise.model.testbed import Fault
 from equipoise.model.units import UM
-from equipoise.procedure.balancing.balance import BalanceOptions, balance, comes_nearer
+from equipoise.procedure.balancing.balance import (
+    BalanceOptions,
+    balance,
+    comes_nearer,
+    urgent,
+    way,
+)
+from equipoise.procedure.steps.choose_move import safest
+from equipoise.procedure.steps.joint_fit import learn
+from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
 
-SPUTNIX = read_preset("sputnix")
+SPUTNIX, VIETNAM = read_preset("sputnix"), read_preset("vietnam")
 
 
 def run(testbed, options, seed=3):
@@ -115,6 +125,29 @@ def test_with_moves_to_spare_it_goes_below_again_to_learn_the_height():
     assert len(below) > 1
     _, usual = plain()
     assert steps[-1].verdict.sd[2] < 0.7 * usual[-1].verdict.sd[2]
+
+
+@pytest.mark.parametrize(("accuracy", "reason"), [(1e-5, MoveReason.TO_TARGET),
+                                                  (0.0, MoveReason.BELOW_FIRST)])  # fmt: skip
+def test_a_way_below_leaves_a_move_for_the_trim_where_stops_are_rough(accuracy, reason):
+    """500 g that stop within 0.01 mm shift 20 kg by 0.25 um, of 0.3 allowed; two moves are left."""
+    masses = tuple(replace(mass, accuracy=accuracy) for mass in VIETNAM.masses)
+    bed = replace(VIETNAM, masses=masses)
+    known = learn(None, SimulatedBench(bed, 1).read(20.0), bed)
+    options = BalanceOptions(target=known.com, tolerance=np.full(3, 0.3e-6), max_moves=8)
+    view = Outlook(known, bed, state_now(known, bed))
+    assert way(view, 2, options)[1] is reason
+    assert way(view, 3, options)[1] is MoveReason.BELOW_FIRST
+
+
+def test_the_safest_move_is_made_while_it_keeps_a_margin():
+    """A platform nobody knows how to send on falls faster and faster: it is caught within 98 %."""
+    known, limit = learnt(), SPUTNIX.tilt_limit
+    q = exponential(np.array([0.8 * limit, 0.0, 0.0]))
+    views = [Outlook(known, SPUTNIX, (q, np.array([rate, 0.0, 0.0])))
+             for rate in np.radians(np.linspace(0.0, 4.0, 41))]  # fmt: skip
+    first = next(view for view in views if urgent(view, known.com, False))
+    assert 0.9 * limit < safest(first, known.com, False).peak < 0.98 * limit
 
 
 @pytest.mark.parametrize("seed", thorough.some([1, 2, 3], 1))

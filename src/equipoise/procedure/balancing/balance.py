@@ -175,14 +175,20 @@ def decide(
     if not (progress.braking or ripe(bench, progress, options, began)):
         return None
     hurried = bench.time - began > options.max_time - RETURN
-    learning = not hurried and worth_learning(knowledge, testbed, left, options)
-    option = option_for(view, below(knowledge, options.target, testbed)) if learning else None
-    if option is None or left <= moves_back(option, knowledge, testbed, options):
-        learning, option = False, option_for(view, options.target)
+    option, reason = way(view, 1 if hurried else left, options)
     pressed = bench.time - began > options.max_time - SETTLE
-    if not pressed and not good_moment(view, option):
-        return None
-    return option, MoveReason.BELOW_FIRST if learning else MoveReason.TO_TARGET
+    stays = np.array_equal(option.targets, knowledge.displacement)  # stops are too rough for it
+    return None if stays or not (pressed or good_moment(view, option)) else (option, reason)
+
+
+def way(view: Outlook, left: int, options: BalanceOptions) -> tuple[Option, MoveReason]:
+    """Return the move below the target where that pays, else the one to the target, and why."""
+    knowledge, testbed = view.knowledge, view.testbed
+    if worth_learning(knowledge, testbed, left, options):
+        down = option_for(view, below(knowledge, options.target, testbed))
+        if left > moves_back(down, view, options):
+            return down, MoveReason.BELOW_FIRST
+    return option_for(view, options.target), MoveReason.TO_TARGET
 
 
 def worth_learning(
@@ -200,11 +206,9 @@ def worth_learning(
     return left > 1 and (first or (vague and not low))
 
 
-def moves_back(
-    option: Option, knowledge: Knowledge, testbed: Testbed, options: BalanceOptions
-) -> int:
-    """Return how many moves come after a way below: back, and a trim where stops are rough."""
-    stops = stops_covariance(testbed, option.targets != knowledge.displacement)
+def moves_back(down: Option, view: Outlook, options: BalanceOptions) -> int:
+    """Return how many moves follow one below: the way back, and a trim where stops are rough."""
+    stops = stops_covariance(view.testbed, down.targets != view.knowledge.displacement)
     rough = np.sqrt(np.diag(stops)) > KNOWN * options.close
     return 2 if rough.any() else 1
 
