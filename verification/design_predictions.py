@@ -113,8 +113,8 @@ class Chain(NamedTuple):
 def goals_for(testbed: Testbed, now: Array, wanted: Array) -> Array:
     """Return where masses should go (m), as ``balance`` has it on rails at right angles.
 
-    Where coarse and fine masses share a rail ``balance`` takes the shorter way, by the coarse ones;
-    on skew rails it finds combinations of steps that laws miss. There they go as laws send them.
+    Where coarse and fine masses share a rail, and on skew rails, ``balance`` finds combinations of
+    steps that laws miss, and leaves less. There they go as laws send them.
     """
     masses, total = testbed.masses, testbed.body.mass
     rails = rails_of(masses, total)

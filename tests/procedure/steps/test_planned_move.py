@@ -5,20 +5,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.sliding_masses import displacements_for
+from equipoise.actuators.sliding_masses import displacements_for, shift_by, shift_by_travel
 from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.units import UM
 from equipoise.procedure.balancing.hold_posterior import before_moving
-from equipoise.procedure.steps.joint_fit import learn, without_stops
+from equipoise.procedure.steps.choose_move import option_for
+from equipoise.procedure.steps.joint_fit import learn, stood, without_stops
 from equipoise.procedure.steps.planned_move import planned_move
+from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
 from tests.support.builders import platform
 
 # A mass's stop errs by 1 um, a measurement by 0.05 um sideways. It may turn over: one free motion.
-UNB = replace(read_preset("unb"), tilt_limit=np.pi)
+FINE = read_preset("unb")
+UNB = replace(
+    FINE, tilt_limit=np.pi, masses=tuple(replace(mass, accuracy=2e-5) for mass in FINE.masses)
+)
 BELOW = np.array([0.0, 0.0, -100.0]) * UM
 STEPS = 200 * np.array([mass.resolution for mass in UNB.masses])
 SPEED = np.array([mass.speed for mass in UNB.masses])
@@ -91,6 +96,20 @@ def test_a_second_move_is_predicted_as_well_as_it_says():
     found = [missed(seed) for seed in range(SEEDS)]
     chi = np.mean([off @ np.linalg.solve(spread, off) for off, spread in found]) / 3
     assert abs(chi - 1) < 3.5 * np.sqrt(2 / (3 * SEEDS))
+
+
+def test_a_chosen_move_is_predicted_to_reach_its_aim():
+    """Within half a step, where the first stops, of which something is known, are left behind."""
+    bench = SimulatedBench(UNB, 4)
+    known = learn(None, bench.read(MEASUREMENT), UNB)
+    known = learn(known, moved(bench, displacements_for(UNB, np.zeros(3), BELOW - known.com)), UNB)
+    assert np.abs(shift_by(UNB, stood(known, UNB))).max() > 0.3 * UM
+    aim, now = known.com + np.array([20.0, -20.0, 30.0]) * UM, known.displacement
+    goal = option_for(Outlook(known, UNB, state_now(known, UNB)), aim).targets
+    posterior = without_stops(known, UNB, goal != now)
+    move = planned_move(UNB, now, goal, posterior, MoveReason.TO_TARGET)
+    step = np.abs(shift_by_travel(UNB)).sum(axis=0) * UNB.masses[0].resolution
+    assert np.all(np.abs(move.predicted_com - aim) <= 0.5 * step + 1e-10)
 
 
 def test_a_mass_that_has_not_moved_has_no_stop_to_leave():

@@ -21,8 +21,8 @@ errors of two stops.
 
 On rails at right angles whose finest steps shift by q, steps leave q / sqrt(12) along each. Several
 equal masses on one rail are no finer than one; a fine one beside a coarse one is, as far as it
-goes. ``balance`` moves fewer masses, and finds better combinations of steps on skew rails: it
-leaves somewhat less; but it moves coarse masses where laws move fine ones, which leaves more.
+goes. ``balance`` moves fewer masses, and none whose stop adds more than it mends, and finds better
+combinations of steps on skew rails: it leaves somewhat less.
 
 Lag, sag and mass errors are not modelled: they show in the next measurement.
 """
