@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from equipoise.actuators.mass_allocation import allocate, rails_of
-from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.free_vertical import PLUMB
@@ -30,6 +30,7 @@ from equipoise.planning.sizing.expected_torque import expected_torque
 from equipoise.planning.sizing.measurement_bound import first_bound
 from equipoise.planning.sizing.move_error import at_home, move
 from equipoise.planning.sizing.reachable_set import contains, reach_of
+from equipoise.procedure.steps.displacement_choice import displacements_for
 from equipoise.simulation import actuator
 from equipoise.simulation.carried_out import bench_for, carried_out
 from equipoise.simulation.draw_truth import own_truth

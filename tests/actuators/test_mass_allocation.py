@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from equipoise.actuators.mass_allocation import allocate, rails_of, tiers_of
-from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.model.testbed import SlidingMass
+from equipoise.procedure.steps.displacement_choice import displacements_for
 from tests.support.builders import platform, sliding_masses
 
 MASS = 14.0

@@ -39,6 +39,22 @@ def sliding_masses(accuracy: float = 0.0, resolution: float = 1e-3) -> tuple[Sli
     )
 
 
+def rail(mass, home, axis, **more) -> SlidingMass:
+    axis = np.asarray(axis, dtype=float)
+    plain = SlidingMass(
+        "m", mass, np.asarray(home, dtype=float), axis / np.linalg.norm(axis),
+        (-0.05, 0.05), 1e-3, 0.0, 0.0, 0.01,
+    )  # fmt: skip
+    return replace(plain, **more)
+
+
+SKEW = (
+    rail(0.02, [0.2, 0.05, 0.0], [1.0, 0.3, 0.0]),
+    rail(0.03, [-0.1, 0.2, 0.1], [0.2, 1.0, -0.4]),
+    rail(0.01, [0.0, -0.1, 0.3], [0.3, 0.0, 1.0]),
+)
+
+
 def platform(accuracy: float = 0.0, gyro: bool = False) -> Testbed:
     """The platform as published; the first guess is the truth."""
     return Testbed(

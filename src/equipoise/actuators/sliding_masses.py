@@ -1,4 +1,4 @@
-"""Sliding masses: displacements to centre of mass, inertia and momentum, and back.
+"""Sliding masses: displacements to centre of mass, inertia and momentum.
 
 With e_i = d_i u_i on a rail through rho_i, relative to the masses at home (Ivanov 2021 Eq. 2.3 as
 corrected: all about P, identity matrices restored, sign of the sum plus):
@@ -11,29 +11,17 @@ corrected: all about P, identity matrices restored, sign of the sum plus):
 with d_i = gain_i times the command, which is what counts as displacement everywhere else. (Where
 a gain is really a wrong weight, B_i has it once too often, by gain (gain - 1) m d^2: nothing
 beside J.)
-
-The way back, from a wanted shift of the centre of mass to whole steps of the motors, is a mixed
-integer linear programme: least error, the stops' own included, then least travel, inside the rails.
 """
 
 from collections.abc import Sequence
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from equipoise.maths.linalg import PAIRS
 from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3, Vector6
 from equipoise.model.testbed import SlidingMass, Testbed
 
-ERRORS, WAYS = 1e6, 1e3  # 1/m, chosen: the programme counts errors in um and ways in mm
-ERROR = 1e4  # mm of travel that an error of 1 um is worth, chosen: beyond what rails have
-NODES = 20_000  # chosen: seconds; the best that was found until then is taken
-MORE = 2  # steps, chosen: what whole steps may take beyond what fractions would
-COARSE = 1e-3  # m, chosen: the programme's unit for masses that have no steps
-FINE = 1e-9  # m, chosen: a step of masses that have none
-ROUNDING = 1e-9  # of a step
 PARALLEL = 0.99  # cosine, chosen: rails of one direction
 
 
@@ -97,130 +85,3 @@ def com_shift_covariance(
     """Return the covariance (m^2) of where moved masses leave the centre of mass."""
     spread: Series3 = maps.first_moment * (accuracy * moved)[:, None] / total_mass
     return spread.T @ spread
-
-
-class Programme(NamedTuple):
-    """The numbers of the programme, in steps of the masses.
-
-    Its unknowns: steps forward (k) and backward (k), which masses move (k, 0 or 1), errors over and
-    under (3 + 3, um), the longest travel time (s).
-    """
-
-    gain: Floats  # (3, k) um a step
-    seconds: Floats  # (k,) s a step
-    travel: Floats  # (k,) mm a step
-    room: Floats  # (2, k) steps that may be gone, forward and backward
-    whole: Floats  # (k,) 1: whole steps alone
-    least: Floats  # (k,) steps, of a mass that moves
-    stood: Floats  # (3, k) um, what the errors of the present stops do
-    stop: Floats  # (k,) um, one sd of what a new stop does, summed over the axes
-
-
-def worth_going(gain: Floats, error: float) -> Floats:
-    """Return how many steps of each mass may make up for an error (um), (k,).
-
-    What is no better than standing still shifts by twice the error at most; in an optimum of the
-    programme without whole steps three masses at most stand off the ends of their way.
-    """
-    steps = np.zeros(gain.shape[1])
-    for size in range(1, min(3, len(steps)) + 1):
-        for some in combinations(range(len(steps)), size):
-            alone = np.abs(np.linalg.pinv(gain[:, some])).max(axis=1)
-            steps[list(some)] = np.maximum(steps[list(some)], alone)
-    return np.ceil(2 * error * steps) + MORE
-
-
-def programme_of(testbed: Testbed, now: Floats, shift: Vector3, stood: Floats) -> Programme:
-    """Return the programme for masses at displacements ``now`` with stops' errors ``stood`` (m)."""
-    masses, gain = testbed.masses, shift_by_travel(testbed).T * ERRORS
-    resolution = np.array([m.resolution for m in masses])
-    whole = (resolution > 0).astype(float)
-    step = np.where(whole > 0, resolution, COARSE)
-    low, high = np.array([m.travel for m in masses]).reshape(-1, 2).T
-    room = np.maximum(np.stack([high - now, now - low]) / step, 0.0)
-    error = float(np.abs(shift * ERRORS).sum() + np.abs(gain * stood).sum())
-    room = np.minimum(room, worth_going(gain * step, error))
-    return Programme(
-        gain=gain * step,
-        seconds=step / np.array([m.speed for m in masses]),
-        travel=step * WAYS,
-        room=np.where(whole > 0, np.floor(room + ROUNDING), room),
-        whole=whole,
-        least=np.where(whole > 0, 1.0, FINE / step),
-        stood=gain * stood,
-        stop=np.abs(gain).sum(axis=0) * np.array([m.accuracy for m in masses]),
-    )
-
-
-def cost_of(programme: Programme, haste: float) -> Floats:
-    """Return what each unknown costs: errors and new stops alike, then ways, then time."""
-    k = len(programme.travel)
-    order = 1.0 + 1e-3 * np.arange(k)  # of equal ways, the one that moves fewer masses
-    ways = programme.travel * order
-    return np.concatenate([ways, ways, ERROR * programme.stop, np.full(6, ERROR), [haste + 1e-6]])
-
-
-def constraints_of(programme: Programme, shift: Vector3) -> list[scipy.optimize.LinearConstraint]:
-    """Return that the shift (m) is met but for the errors, what moving means, and the time."""
-    k, (gain, stood) = len(programme.travel), (programme.gain, programme.stood)
-    one, none, at = np.eye(k), np.zeros((k, 6)), shift * ERRORS
-    met = np.hstack([gain, -gain, -stood, np.eye(3), -np.eye(3), np.zeros((3, 1))])
-    goes = [one, one, -np.diag(programme.room.max(axis=0, initial=0.0)), none, np.zeros((k, 1))]
-    stays = [-one, -one, np.diag(programme.least), none, np.zeros((k, 1))]
-    seconds = np.diag(programme.seconds)
-    clock = [seconds, seconds, 0 * one, none, -np.ones((k, 1))]
-    limits = [np.hstack(rows) for rows in (goes, stays, clock)]
-    beyond = [scipy.optimize.LinearConstraint(rows, -np.inf, 0.0) for rows in limits]
-    return [scipy.optimize.LinearConstraint(met, at, at), *beyond]
-
-
-def displacements_for(
-    testbed: Testbed, now: Floats, shift: Vector3, haste: float = 0.0, stood: Floats | None = None
-) -> Floats:
-    """Return displacements (m) that shift the centre of mass from where it is by ``shift`` (m).
-
-    Rails and motor steps are kept. A mass that moves leaves the error of its present stop behind,
-    which is part of where the centre of mass is found to be (``stood``, m, as far as it is known).
-    It stops with a new one, whose sd counts as an error does: fine masses correct what they can.
-    What cannot be reached is approached as nearly as possible: compare ``com_shift`` of the answer.
-    ``haste`` weighs the longest single travel time against the sum of travels (mm per s).
-    """
-    k = len(testbed.masses)
-    programme = programme_of(testbed, now, shift, np.zeros(k) if stood is None else stood)
-    whole, free = programme.whole, np.zeros(7)
-    answer = scipy.optimize.milp(
-        cost_of(programme, haste),
-        integrality=np.concatenate([whole, whole, np.ones(k), free]),
-        bounds=scipy.optimize.Bounds(
-            0.0, np.concatenate([*programme.room, np.ones(k), free + np.inf])
-        ),
-        constraints=constraints_of(programme, shift),
-        # With a presolve, HiGHS of SciPy 1.17 now and then prints on standard output.
-        options={"node_limit": NODES, "presolve": False},
-    )
-    if answer.x is None:
-        return now.copy()
-    forward, backward = answer.x[: 2 * k].reshape(2, k)
-    go = np.where(whole > 0, np.round(forward - backward), forward - backward)
-    return now + go * programme.travel / WAYS
-
-
-def gain_by_one(
-    masses: Sequence[SlidingMass], total_mass: float, now: Floats, shift: Vector3
-) -> float:
-    """Return by how much (m) one mass alone comes nearer to a shift (m), summed over the axes.
-
-    With whole steps on its rail, along the shift: a mass that would go too far stops before. One sd
-    of its stop is taken off. It is no more than what ``displacements_for`` gains with all masses,
-    which takes longer to find.
-    """
-    per_m = mass_maps(masses).first_moment / total_mass
-    low, high = (np.array([m.travel[end] for m in masses]) - now for end in (0, 1))
-    step = np.array([max(m.resolution, FINE) for m in masses])
-    way = per_m @ shift / np.sum(per_m**2, axis=1)
-    way = np.clip(way, np.minimum(low, 0.0), np.maximum(high, 0.0))
-    whole = np.trunc(way / step + ROUNDING * np.sign(way)) * step
-    left = shift - whole[:, None] * per_m
-    stop = np.array([m.accuracy for m in masses]) * np.abs(per_m).sum(axis=1)
-    gained = np.abs(shift).sum() - np.abs(left).sum(axis=1) - stop
-    return float(np.max(gained, initial=0.0))

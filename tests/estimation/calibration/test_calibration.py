@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation.calibration.calibration import (
     CalibrateOptions,
     calibrate,
@@ -20,6 +20,7 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.testbed import TrueDrive
 from equipoise.procedure.identification.calibrate import calibration_moves, hangs
+from equipoise.procedure.steps.displacement_choice import displacements_for
 from equipoise.simulation.carried_out import record
 from equipoise.simulation.draw_truth import real_masses
 from tests.support.outcomes import codes_of, of_use

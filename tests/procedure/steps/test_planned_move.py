@@ -5,13 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.sliding_masses import displacements_for, shift_by, shift_by_travel
+from equipoise.actuators.sliding_masses import shift_by, shift_by_travel
 from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.units import UM
 from equipoise.procedure.balancing.hold_posterior import before_moving
 from equipoise.procedure.steps.choose_move import option_for
+from equipoise.procedure.steps.displacement_choice import displacements_for
 from equipoise.procedure.steps.joint_fit import learn, stood, without_stops
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import displacements_for, gain_by_one, shift_by
+from equipoise.actuators.sliding_masses import shift_by
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
@@ -23,6 +23,7 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
+from equipoise.procedure.steps.displacement_choice import displacements_for, gain_by_one
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, stood, without_stops
 from equipoise.procedure.steps.plain_steps import com_step, measurement_step, verdict_step
 from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
@@ -149,8 +150,8 @@ def comes_nearer(knowledge: Knowledge, testbed: Testbed, options: BalanceOptions
     axes, is enough for one of them; so mostly no search for the best move of all is needed.
     """
     off, least = options.target - knowledge.com, TRIM * options.tolerance
-    total, now = testbed.body.mass, knowledge.displacement
-    if gain_by_one(testbed.masses, total, now, off) > 3 * float(least.max()):
+    now = knowledge.displacement
+    if gain_by_one(testbed, now, off) > 3 * float(least.max()):
         return True
     goal = displacements_for(testbed, now, off, stood=stood(knowledge, testbed))
     com, _ = without_stops(knowledge, testbed, goal != now)

@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import displacements_for, shift_by
+from equipoise.actuators.sliding_masses import shift_by
 from equipoise.estimation.tracker import tracker
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.testbed import Testbed
+from equipoise.procedure.steps.displacement_choice import displacements_for
 from equipoise.procedure.steps.verify import Aim
 
 ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered

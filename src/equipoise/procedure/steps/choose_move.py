@@ -8,8 +8,8 @@ else the one with the least tilt.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from equipoise.actuators.sliding_masses import displacements_for
 from equipoise.model.arrays import Floats, Vector3
+from equipoise.procedure.steps.displacement_choice import displacements_for
 from equipoise.procedure.steps.joint_fit import stood
 from equipoise.procedure.steps.tilt_prediction import Outlook
 
