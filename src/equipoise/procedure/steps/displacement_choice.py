@@ -116,9 +116,10 @@ def displacements_for(
     k = len(testbed.masses)
     programme = programme_of(testbed, now, shift, np.zeros(k) if stood is None else stood)
     whole, free = programme.whole, np.zeros(7)
+    kinds: Floats = np.concatenate([whole, whole, np.ones(k), free])
     answer = scipy.optimize.milp(
         cost_of(programme, haste),
-        integrality=np.concatenate([whole, whole, np.ones(k), free]),
+        integrality=kinds.astype(np.int64),
         bounds=scipy.optimize.Bounds(
             0.0, np.concatenate([*programme.room, np.ones(k), free + np.inf])
         ),
