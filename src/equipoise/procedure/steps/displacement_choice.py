@@ -20,7 +20,7 @@ from equipoise.model.testbed import Testbed
 
 ERRORS, WAYS = 1e6, 1e3  # 1/m, chosen: the programme counts errors in um and ways in mm
 ERROR = 1e4  # mm of travel that an error of 1 um is worth, chosen: beyond what rails have
-NODES = 1000  # chosen: a quarter of a second; more found nothing better on any preset
+NODES = 1000  # chosen: a quarter of a second; more found nothing better on five presets
 MORE = 2  # steps, chosen: what whole steps may take beyond what fractions would
 COARSE = 1e-3  # m, chosen: the programme's unit for masses that have no steps
 FINE = 1e-9  # m, chosen: a step of masses that have none
