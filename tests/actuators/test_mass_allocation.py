@@ -11,7 +11,7 @@ from equipoise.actuators.mass_allocation import allocate, rails_of, tiers_of
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.model.testbed import SlidingMass
 from equipoise.procedure.steps.displacement_choice import displacements_for
-from tests.support.builders import platform, sliding_masses
+from tests.support.builders import platform_with, sliding_masses
 
 MASS = 14.0
 ROUND = np.arange(4) * np.pi / 2
@@ -146,7 +146,7 @@ def test_beyond_reach_it_does_as_well_as_the_programme_of_all_steps(there):
     """Sum over axes of the error, against the mixed integer programme; skew rails."""
     masses = LAYOUTS["three edges of a pyramid"]
     shift = com_shift(mass_maps(masses), MASS, places(masses, there, 2.0))
-    best = displacements_for(replace(platform(), masses=tuple(masses)), np.zeros(3), shift)
+    best = displacements_for(platform_with(masses), np.zeros(3), shift)
     found = allocate(rails_of(masses, MASS), np.zeros(3), shift)
     error, least = (
         np.abs(com_shift(mass_maps(masses), MASS, d) - shift).sum() for d in (found, best)

@@ -64,6 +64,12 @@ def platform(accuracy: float = 0.0, gyro: bool = False) -> Testbed:
     )  # fmt: skip
 
 
+def platform_with(masses, mass=MASS) -> Testbed:
+    """The platform with other masses on rails, of another mass in all (kg)."""
+    bed = platform()
+    return replace(bed, masses=tuple(masses), body=replace(bed.body, mass=mass))
+
+
 def level(testbed: Testbed) -> Testbed:
     """The same platform seen by a camera whose vertical is known to be gravity's."""
     return replace(testbed, attitude=replace(testbed.attitude, plumb_sd=0.0))

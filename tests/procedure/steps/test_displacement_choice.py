@@ -10,21 +10,15 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.model.testbed import Testbed
 from equipoise.procedure.steps import displacement_choice
 from equipoise.procedure.steps.displacement_choice import displacements_for, gain_by_one
-from tests.support.builders import MASS, SKEW, maps, platform, rail, sliding_masses
+from tests.support.builders import MASS, SKEW, maps, platform_with, rail, sliding_masses
 
 THREE = sliding_masses()
 # m, what half a motor step does to the centre; a step more is worth an error of 1e-4 um less
 HALF_STEP = 0.5e-3 * 0.0156 / MASS + 0.51e-10
 along = st.floats(-0.05, 0.05)
 displacements = arrays(np.float64, 3, elements=along)
-
-
-def platform_with(masses, mass=MASS) -> Testbed:
-    bed = platform()
-    return replace(bed, masses=tuple(masses), body=replace(bed.body, mass=mass))
 
 
 @given(displacements, displacements)

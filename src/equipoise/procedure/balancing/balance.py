@@ -153,9 +153,9 @@ def comes_nearer(knowledge: Knowledge, testbed: Testbed, options: BalanceOptions
     now = knowledge.displacement
     if gain_by_one(testbed, now, off) > 3 * float(least.max()):
         return True
-    goal = displacements_for(testbed, now, off, stood=stood(knowledge, testbed))
-    com, _ = without_stops(knowledge, testbed, goal != now)
-    left = options.target - com - shift_by(testbed, goal - now)
+    errors = stood(knowledge, testbed)
+    goal = displacements_for(testbed, now, off, stood=errors)
+    left = off - shift_by(testbed, goal - now - errors * (goal != now))
     return bool(np.any(np.abs(off) - np.abs(left) > least))
 
 

@@ -58,6 +58,12 @@ def worth_going(gain: Floats, error: float) -> Floats:
     return np.ceil(2 * error * steps) + MORE
 
 
+def new_stops(testbed: Testbed) -> Floats:
+    """Return one sd of what a stop of each mass does, summed over the axes, (k,) m."""
+    accuracy = np.array([mass.accuracy for mass in testbed.masses])
+    return np.abs(shift_by_travel(testbed)).sum(axis=1) * accuracy
+
+
 def programme_of(testbed: Testbed, now: Floats, shift: Vector3, stood: Floats) -> Programme:
     """Return the programme for masses at displacements ``now`` with stops' errors ``stood`` (m)."""
     masses, gain = testbed.masses, shift_by_travel(testbed).T * ERRORS
@@ -76,7 +82,7 @@ def programme_of(testbed: Testbed, now: Floats, shift: Vector3, stood: Floats) -
         whole=whole,
         least=np.where(whole > 0, 1.0, FINE / step),
         stood=gain * stood,
-        stop=np.abs(gain).sum(axis=0) * np.array([m.accuracy for m in masses]),
+        stop=ERRORS * new_stops(testbed),
     )
 
 
@@ -148,6 +154,5 @@ def gain_by_one(testbed: Testbed, now: Floats, shift: Vector3) -> float:
     way = np.clip(way, np.minimum(low, 0.0), np.maximum(high, 0.0))
     whole = np.trunc(way / step + ROUNDING * np.sign(way)) * step
     left = shift - whole[:, None] * per_m
-    stop = np.array([m.accuracy for m in masses]) * np.abs(per_m).sum(axis=1)
-    gained = np.abs(shift).sum() - np.abs(left).sum(axis=1) - stop
+    gained = np.abs(shift).sum() - np.abs(left).sum(axis=1) - new_stops(testbed)
     return float(np.max(gained, initial=0.0))
