@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from equipoise.app.api.catalogues import laws, methods
     from equipoise.app.api.compare import compare
     from equipoise.app.api.design import design
+    from equipoise.app.api.export import export
     from equipoise.app.api.files import preset, read_recording, read_testbed, write_recording
     from equipoise.app.api.identify import identify
     from equipoise.app.api.inertia import inertia
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from equipoise.simulation.bench import SimulatedBench
 
 VERBS = ("identify", "assess", "observe", "balance", "plan", "design", "calibrate", "compare",
-         "simulate", "open_bench", "inertia")  # fmt: skip
+         "simulate", "open_bench", "inertia", "export")  # fmt: skip
 HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "read_testbed": "equipoise.app.api.files",
     "preset": "equipoise.app.api.files",
@@ -56,6 +57,7 @@ __all__ = [
     "calibrate",
     "compare",
     "design",
+    "export",
     "identify",
     "inertia",
     "laws",

@@ -25,6 +25,7 @@ from equipoise.app.commands.demo import demo
 from equipoise.app.commands.design import design
 from equipoise.app.commands.devices import devices
 from equipoise.app.commands.emulate import emulate
+from equipoise.app.commands.export import export
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.import_ import import_
 from equipoise.app.commands.inertia import inertia
@@ -73,7 +74,7 @@ app = App(
 COMMANDS = (
     demo, new, inertia, design, plan, simulate, import_, inspect, observe, identify, calibrate,
     assess, methods,
-    balance, laws, compare, reproduce, devices, check, emulate, record, convert, repair, replay,
+    balance, laws, compare, reproduce, devices, check, emulate, record, convert, export, repair, replay,
     track, print_board, calibrate_camera, dashboard, report,
     logbook, precompile,
 )  # fmt: skip

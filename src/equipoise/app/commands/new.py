@@ -1,6 +1,9 @@
 """`equipoise new`: a preset as a file of one's own."""
 
 from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
 
 from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import stdout
@@ -11,6 +14,8 @@ def new(
     preset: str = "sputnix",
     /,
     *,
+    from_: Annotated[Path | None, Parameter(name="--from")] = None,
+    products: Literal["tensor", "integrals"] | None = None,
     out: Path | None = None,
     force: Flag = False,
     schema: Flag = False,
@@ -21,6 +26,12 @@ def new(
     ----------
     preset
         Name of the preset, such as sputnix.
+    from_
+        File with mass properties to put into it: a text of SolidWorks, Fusion, Inventor, Creo,
+        Onshape or FreeCAD, a URDF, SDF or MJCF file. Its origin is taken as the centre of rotation.
+    products
+        What products of inertia are in that text, where nothing shows it: elements of the tensor
+        (J_xy = -integral of x y dm) or integrals.
     out
         File to write. Left out: PRESET.toml in this folder.
     force
@@ -37,9 +48,18 @@ def new(
         stdout().out(json.dumps(json_schema(), indent=2), highlight=False)
         return 0
     text = preset_text(preset)
+    found = ""
+    if from_ is not None:
+        from equipoise.io.exchange.body_file import read_foreign_body
+        from equipoise.io.testbed.testbed_file import with_stated_body
+
+        body, found = read_foreign_body(from_, products)
+        text = with_stated_body(text, body, from_.name, preset)
     path = out or Path(f"{preset}.toml")
     if path.exists() and not force:
         raise InputError(str(path), "a file that is already there", "another --out, or --force")
     write_testbed(text, path)
     stdout().print(f"wrote {path}: what is marked 'assumed' is yours to measure")
+    if found:
+        stdout().print(found)
     return 0

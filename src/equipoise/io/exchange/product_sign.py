@@ -17,7 +17,12 @@ import numpy as np
 from equipoise.io.exchange.mass_text import Block, MassText, Notation
 from equipoise.model.arrays import Floats, Matrix3
 from equipoise.model.errors import InputError
-from equipoise.model.mass_properties import MassProperties, from_centre, smallest_second_moment
+from equipoise.model.mass_properties import (
+    MassProperties,
+    from_centre,
+    parallel_axis,
+    smallest_second_moment,
+)
 from equipoise.model.stated_body import elements, tensor_of
 
 SIGNS: dict[Notation, float] = {"tensor": 1.0, "integrals": -1.0}
@@ -34,6 +39,7 @@ def body_of(
     ``notation`` is what the user says. InputError where signs contradict each other or where
     nothing shows them, and where blocks about two points are of different bodies.
     """
+    _check_points(stated, source)
     shown = _shown_signs(stated)
     said = notation or next((each.notation for each in stated.blocks if each.notation), None)
     kinds = set(shown.values()) | ({said} if said else set())
@@ -45,7 +51,6 @@ def body_of(
         raise InputError(source, "products of inertia whose sign nothing in it shows", wanted)
     kind: Notation = next(iter(kinds), "tensor")
     inertia_C = _central(stated, SIGNS[kind])
-    _check_points(stated, SIGNS[kind], inertia_C, source)
     if smallest_second_moment(inertia_C) <= 0:
         raise InputError(source, "an inertia that no body can have", "the units as printed")
     reason = ", ".join(shown) or ("as stated" if said else "no products")
@@ -97,8 +102,7 @@ def _misfits_of_points(stated: MassText) -> dict[Notation, float] | None:
     about_C, about_O = _block(stated, "C"), _block(stated, "origin")
     if about_C is None or about_O is None:
         return None
-    body = MassProperties(stated.mass, stated.centre, np.zeros((3, 3)))
-    due = elements(-body.inertia_C)[3:]  # the parallel-axis term
+    due = elements(parallel_axis(stated.mass, stated.centre))[3:]
     printed = (about_O.six - about_C.six)[3:]
     return {kind: _relative(sign * printed - due, due) for kind, sign in SIGNS.items()}
 
@@ -126,11 +130,12 @@ def _relative(left: Floats, due: Floats) -> float:
     return float(np.abs(left).max() / max(float(np.abs(due).max()), np.finfo(float).tiny))
 
 
-def _check_points(stated: MassText, sign: float, inertia_C: Matrix3, source: str) -> None:
-    about_O = _block(stated, "origin")
-    if about_O is None:
+def _check_points(stated: MassText, source: str) -> None:
+    """Raise InputError where moments about two points, which have no sign, are of two bodies."""
+    about_C, about_O = _block(stated, "C"), _block(stated, "origin")
+    if about_C is None or about_O is None:
         return
-    due = from_centre(stated.mass, stated.centre, inertia_C).inertia_P
-    if _relative(signed(about_O, sign) - due, due) > DIGITS:
+    due = elements(parallel_axis(stated.mass, stated.centre))[:3]
+    if _relative((about_O.six - about_C.six)[:3] - due, about_O.six[:3]) > DIGITS:
         found = "inertias about two points that no one body has"
         raise InputError(source, found, "mass, centre of mass and both blocks of the same body")

@@ -39,8 +39,8 @@ def body_of_xml(text: str, source: str) -> MassProperties:
 
 def _urdf(inertial: Element, source: str) -> MassProperties:
     origin = inertial.find("origin")
-    com = _numbers(origin, "xyz", 3, source, (0, 0, 0))
-    turn = _turn(_numbers(origin, "rpy", 3, source, (0, 0, 0)))
+    com = _numbers(origin, "xyz", 3, source, (0.0,) * 3)
+    turn = _turn(_numbers(origin, "rpy", 3, source, (0.0,) * 3))
     (mass,) = _numbers(inertial.find("mass"), "value", 1, source)
     element = inertial.find("inertia")
     six = [float(_numbers(element, name, 1, source)[0]) for name in SIX]
@@ -48,7 +48,7 @@ def _urdf(inertial: Element, source: str) -> MassProperties:
 
 
 def _sdf(inertial: Element, source: str) -> MassProperties:
-    pose = _text(inertial, "pose", 6, source, (0, 0, 0, 0, 0, 0))
+    pose = _text(inertial, "pose", 6, source, (0.0,) * 6)
     stated = inertial.find("pose")
     if stated is not None and stated.attrib:
         raise InputError(source, f"<pose> with {', '.join(stated.attrib)}", "x y z roll pitch yaw, rad")
@@ -56,13 +56,14 @@ def _sdf(inertial: Element, source: str) -> MassProperties:
     element = inertial.find("inertia")
     if element is None:
         raise InputError(source, "no <inertia>", ONE)
-    six = [float(_text(element, name, 1, source, None if k < 3 else (0,))[0]) for k, name in enumerate(SIX)]
-    return _body(float(mass), pose[:3], _turn(pose[3:]), np.array(six))
+    moments = [float(_text(element, name, 1, source)[0]) for name in SIX[:3]]
+    products = [float(_text(element, name, 1, source, (0.0,))[0]) for name in SIX[3:]]
+    return _body(float(mass), pose[:3], _turn(pose[3:]), np.array(moments + products))
 
 
 def _mjcf(inertial: Element, source: str) -> MassProperties:
     com = _numbers(inertial, "pos", 3, source)
-    turn = to_matrix(normalise(_numbers(inertial, "quat", 4, source, (1, 0, 0, 0))))
+    turn = to_matrix(normalise(_numbers(inertial, "quat", 4, source, (1.0, 0.0, 0.0, 0.0))))
     (mass,) = _numbers(inertial, "mass", 1, source)
     if "fullinertia" in inertial.attrib:
         six = _numbers(inertial, "fullinertia", 6, source)

@@ -16,12 +16,14 @@ from equipoise.maths.linalg import element_sizes
 from equipoise.model import testbed as model
 from equipoise.model.arrays import Matrix3
 from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import PERCENT, UM
 
 WANTED = "a testbed file (TOML); `equipoise new` writes one to start from"
 CALIBRATED = ("gain", "axis", "backlash_mm")
 REMARK = "equipoise inertia"
+CAD_SD = {"mass_sd_percent": 2.0, "inertia_sd_percent": 10.0, "com_sd_um": [500.0, 500.0, 500.0]}
 LEAST_SHARE = 1e-4  # chosen: of the inertia, and an sd that is nought is none
 LEAST_COM = 1e-8  # m, chosen likewise
 
@@ -79,6 +81,37 @@ def with_body(text: str, found: Estimate, inertia_C: Matrix3, source: str) -> st
     made = tomlkit.dumps(document)
     parse_testbed(made, source)
     return made
+
+
+def with_stated_body(text: str, body: MassProperties, origin: str, source: str) -> str:
+    """Return the text with a platform's mass, centre of mass and inertia of another tool.
+
+    Such a file has no uncertainty: the usual one of CAD is stated, to be replaced by what was
+    measured. Comments and all else stay as they are.
+    """
+    document = tomlkit.parse(text)
+    for key, value in stated_keys(body).items():
+        set_key(document["platform"], key, value, f"from {origin}")
+    for key, value in CAD_SD.items():
+        set_key(document["platform"], key, value, "assumed: usual for CAD without cabling")
+    made = tomlkit.dumps(document)
+    parse_testbed(made, source)
+    return made
+
+
+def stated_keys(body: MassProperties) -> dict[str, Any]:
+    """Return the keys of a body that is stated without uncertainty."""
+    return {
+        "mass_kg": body.mass,
+        "inertia_kg_m2": [[written(x) for x in row] for row in body.inertia_C],
+        "about": "C",
+        "com_um": [written(x / UM) for x in body.com],
+    }
+
+
+def written(value: float) -> float:
+    """Return a number without the last digits, which rounding to SI and back has made."""
+    return float(f"{value:.12g}")
 
 
 def body_keys(found: Estimate, inertia_C: Matrix3) -> dict[str, Any]:
