@@ -7,10 +7,10 @@ numerical library is imported here; each command imports what it needs when it r
 """
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from io import TextIOWrapper
 
-from cyclopts import App, CycloptsError, Parameter
+from cyclopts import App, CycloptsError, Group, Parameter
 
 from equipoise.app.arguments.wrong_use import wrong_use
 from equipoise.app.commands.assess import assess
@@ -71,15 +71,21 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-COMMANDS = (
-    demo, new, inertia, design, plan, simulate, import_, inspect, observe, identify, calibrate,
-    assess, methods,
-    balance, laws, compare, reproduce, devices, check, emulate, record, convert, export, repair, replay,
-    track, print_board, calibrate_camera, dashboard, report,
-    logbook, precompile,
-)  # fmt: skip
-for command in COMMANDS:
-    app.command(command, help_format="markdown")
+# In the order of a newcomer's path; help shows them so.
+GROUPS: dict[str, tuple[Callable[..., int], ...]] = {
+    "Start": (demo, new, dashboard),
+    "Recordings": (simulate, import_, inspect, convert, repair, replay, track),
+    "Identification": (identify, calibrate, inertia, assess, observe, methods),
+    "Balancing": (balance, laws),
+    "Planning": (plan, design),
+    "Hardware": (devices, check, record, emulate, print_board, calibrate_camera),
+    "Studies": (compare, reproduce),
+    "Files": (report, logbook, export, precompile),
+}
+for order, (title, commands) in enumerate(GROUPS.items()):
+    group = Group(title, sort_key=order)
+    for place, command in enumerate(commands):
+        app.command(command, help_format="markdown", group=group, sort_key=place)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

@@ -32,7 +32,7 @@ def assess(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Say what gravity still does to a platform, how surely, and whether that is good enough.
+    """Quantify the residual gravity torque of a platform with confidence bounds.
 
     Ends with 1 when the platform does not meet what is required, or the recording cannot decide it;
     with nothing required, when the estimate is not to be trusted.

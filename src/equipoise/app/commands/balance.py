@@ -60,7 +60,7 @@ def balance(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Balance a platform: estimate, move masses, estimate again; then test the result.
+    """Balance a platform: measure, move masses, and verify the result on fresh data.
 
     The platform is simulated, or with --bench the real one that the testbed's [hardware] declares.
     With --manual a person places weights instead of masses that move, on a real platform if a

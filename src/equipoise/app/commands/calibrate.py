@@ -39,7 +39,7 @@ def calibrate(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Calibrate masses by a recording of commanded moves: gain, rail, backlash; sensors too.
+    """Calibrate masses and sensors from a recording of commanded moves.
 
     Ends with 1 when the calibration is not usable; then nothing is written.
 

@@ -17,7 +17,7 @@ def calibrate_camera(
     dictionary: str = "4X4_50",
     legacy: Flag = False,
 ) -> int:
-    """Measure a lens from pictures of a chessboard with markers (ChArUco).
+    """Calibrate a camera lens from pictures of a ChArUco board.
 
     Take some 15, the board near enough to fill half of the picture, in every part of it, tilted by
     20 to 40 deg each way. Lens, focus and size of picture stay as they will be used.

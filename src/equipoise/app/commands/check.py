@@ -12,7 +12,7 @@ STREAMED = 2.0  # s of every sensor, as the usage says
 
 
 def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
-    """Talk to each device of a real bench; move each mass 1 mm and back, drive devices a little.
+    """Test every device of a real bench; move each mass by 1 mm and back.
 
     Masses go home first. Turn the platform a little by hand while the sensors stream, so that the
     signs of gyro and attitude can be compared. Ends with 1 when something is wrong.

@@ -74,7 +74,7 @@ def compare(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Run methods on the same records, or laws on the same platforms, and say which to take.
+    """Compare estimation methods on the same records, or control laws on the same platforms.
 
     Platforms are simulated, and their truth judges. Ends with 1 when no method can be recommended
     for the centre of mass, or no law.

@@ -48,7 +48,7 @@ NOT_CAPTURED = Captured()
 def convert(
     file: str, out: Path, /, *, reading: Reading = WHOLE, captured: Captured = NOT_CAPTURED
 ) -> int:
-    """Read a recording of any known format, or the saved bytes of a sensor, and write it.
+    """Convert a recording, or the saved bytes of a sensor, to another format.
 
     Lines with '~' say what was set right or left aside. Events stay in the file that has them.
 

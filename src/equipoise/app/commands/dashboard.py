@@ -26,7 +26,7 @@ def dashboard(
     port: Whole = 8080,
     expose: str | None = None,
 ) -> int:
-    """Show a bench live in a browser, balance it from there, replay recordings.
+    """Show a bench live in the browser, balance it from there, or replay a recording.
 
     Whoever opens the page can watch; commanding takes the token that is printed here, and one page
     at a time has it. Closing the page changes nothing on the bench. Ctrl-C ends the dashboard and

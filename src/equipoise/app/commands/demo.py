@@ -7,7 +7,7 @@ from equipoise.app.console.terminal import busy
 
 
 def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
-    """Identify a simulated mock-up, balance it, test the result, and write a report.
+    """Identify and balance a simulated mock-up, and write a report.
 
     Parameters
     ----------

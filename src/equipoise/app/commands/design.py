@@ -22,7 +22,7 @@ def design(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Say what masses and sensors of a testbed are good for: reach, steps, bounds, what is left.
+    """Size the masses and sensors of a testbed: reach, resolution, achievable torque.
 
     The budget is for the shortest record. Ends with 1 when a required torque cannot be met.
 

@@ -4,7 +4,7 @@ from equipoise.app.arguments.options import Json
 
 
 def devices(*, json: Json = False) -> int:
-    """List the serial ports of this computer, as a testbed file names them."""
+    """List the serial ports of this computer."""
     from equipoise.app.logbook.output import print_result
     from equipoise.app.text.blocks import paragraphs
     from equipoise.app.text.json_lists import DEVICES

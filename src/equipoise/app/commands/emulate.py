@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | None = None) -> int:
-    """Start emulated devices that speak the real protocols, moved by a simulated platform.
+    """Start emulated devices that speak the real protocols.
 
     The platform is held until its masses have come home, and caught when it tilts too far. Devices
     run until Ctrl-C. Meanwhile other commands reach them through the testbed file that is

@@ -47,7 +47,7 @@ def identify(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Estimate centre of mass and inertia from a recording, and say what it cannot show.
+    """Estimate centre of mass and inertia from recordings, with confidence intervals.
 
     Several recordings of one platform are fitted jointly: inertia and centre of mass are common,
     starts, biases and moves each one's own. A verdict says whether the runs agree.

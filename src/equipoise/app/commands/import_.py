@@ -30,7 +30,7 @@ def import_(
     reading: Reading = WHOLE,
     json: Json = False,
 ) -> int:
-    """Find out how a table of unknown columns is to be read, and read it.
+    """Determine what the columns of an unknown table are, and read it.
 
     Whole readings are compared (clock and its unit, order and direction of the quaternion, axes,
     signs and unit of the gyro, which axis is up) by unit length, gravity and the gyro. The best is

@@ -22,7 +22,7 @@ def inertia(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Sum a list of parts, and combine it with swings about known axes; every number with its sd.
+    """Sum a list of parts to mass properties, and combine them with swing tests.
 
     Ends with 1 when no body can have these properties, when swings and parts contradict each other,
     or when swings leave part of an unknown inertia open; then nothing is written.

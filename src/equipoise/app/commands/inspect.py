@@ -21,7 +21,7 @@ def inspect(
     json: Json = False,
     figure: Path | None = None,
 ) -> int:
-    """Say what a recording holds, and what is wrong with it.
+    """Summarise a recording: channels, rates, gaps, faults.
 
     Lines with '!' name what an estimate will suffer from, lines with '~' what was set right.
 

@@ -12,7 +12,7 @@ def laws(
     target_um: Triple = (0.0, 0.0, -100.0),
     json: Json = False,
 ) -> int:
-    """List the laws of `equipoise balance --law`, or show the whole card of one.
+    """List the control laws, or describe one.
 
     Errata that a source names are entries of docs/errata.md.
 

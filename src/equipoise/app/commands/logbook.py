@@ -22,7 +22,7 @@ def logbook(
     export: Path | None = None,
     json: Json = False,
 ) -> int:
-    """List the runs that balance and identify have kept.
+    """List, compare and export the runs that were kept.
 
     The index beside the runs, logbook.sqlite, can be deleted: it is made anew from their folders.
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 def methods(name: str | None = None, /, *, json: Json = False) -> int:
-    """List the methods of `equipoise identify`, or show the whole card of one.
+    """List the estimation methods, or describe one.
 
     Errata that a source names are entries of docs/errata.md.
 

@@ -20,7 +20,7 @@ def new(
     force: Flag = False,
     schema: Flag = False,
 ) -> int:
-    """Write a preset testbed to a file, to start one's own from.
+    """Write a testbed file to start from.
 
     Parameters
     ----------

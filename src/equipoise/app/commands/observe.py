@@ -25,7 +25,7 @@ def observe(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Say what a recording can and cannot show: the least sd that any method can reach.
+    """Compute the Cramer-Rao bound: what a recording can determine at best.
 
     Nothing is estimated. Motion and sensors decide, not what the rows happen to say.
 

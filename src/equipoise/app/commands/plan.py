@@ -39,7 +39,7 @@ def plan(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Plan how to let a platform go and what to move meanwhile, to learn most from the record.
+    """Plan the most informative manoeuvre for a platform.
 
     Chosen are tilt and rate at the start, times and sizes of moves, and square waves for wheels and
     gyros where there are any. Limits are kept on platforms drawn from what is known, let go by a

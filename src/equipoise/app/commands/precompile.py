@@ -5,7 +5,7 @@ from equipoise.app.console.terminal import counted_pieces, print_whole
 
 
 def precompile(*, workers: Whole | None = None) -> int:
-    """Compile everything that is compiled now, so that no later command waits for it.
+    """Compile all kernels now, so that no later command waits for it.
 
     Kernels are compiled once on a computer, by the first command that needs them. This runs every
     such command once on a short simulated record, in a folder of its own that is removed again.

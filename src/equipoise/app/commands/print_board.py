@@ -21,7 +21,7 @@ def print_board(
     legacy: Flag = False,
     keys: Path | None = None,
 ) -> int:
-    """Draw a board of markers to print at 100 %, for the platform under a camera.
+    """Draw a marker board to print, for a platform under a camera.
 
     Measure a marker and a gap on the print, and put into settings what you find.
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Flag = False) -> int:
-    """Record every sensor of a real bench; masses stay where they are.
+    """Record every sensor of a real bench without moving a mass.
 
     Rows are written as they arrive: what is older than a second is safe whatever happens. Ctrl-C
     ends the record early.

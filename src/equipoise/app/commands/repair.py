@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def repair(file: str, /, *, out: Path, max_memory_mb: float | None = None) -> int:
-    """Save every whole record of a cut or garbled recording, and say what is lost.
+    """Recover the readable part of a damaged recording.
 
     What is written has an index, by which Foxglove finds its way in hours of it; a recording that
     was just made has none. Of one that is whole and has an index nothing is written.

@@ -18,7 +18,7 @@ def replay(
     foxglove: Flag = False,
     reading: Reading = WHOLE,
 ) -> int:
-    """Play a recording back: time, tilt and where the masses are.
+    """Play a recording back in the terminal.
 
     Cut off from a terminal, a line is printed for every second of the recording.
 

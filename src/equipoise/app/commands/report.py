@@ -7,7 +7,7 @@ from equipoise.app.console.terminal import busy, show_paths
 
 
 def report(run: Path, /, *, png: Flag = False) -> int:
-    """Write report.html and report.pdf of a run anew, from the parts that its folder holds.
+    """Rebuild the report of a run.
 
     A run that was made without typst has no PDF: install it, then use this.
 

@@ -32,7 +32,7 @@ def reproduce(
     json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Make again what a paper reports, and say number by number whether it agrees.
+    """Reproduce the results of a paper, number by number.
 
     ivanov2021: records and their fits, the tracker along a move, the law with a move every 25 s and
     our own, with a drift that nobody declared; Figs. 4 to 15.

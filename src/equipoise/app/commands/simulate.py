@@ -26,7 +26,7 @@ def simulate(
     seed: Whole = 1,
     series: Whole | None = None,
 ) -> int:
-    """Simulate a platform in free motion or a planned manoeuvre, and write what its sensors record.
+    """Simulate a platform, and write what its sensors record.
 
     A series is of one platform, each run with a start and noise of its own, as `identify` takes it.
 

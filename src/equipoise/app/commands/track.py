@@ -27,7 +27,7 @@ def track(
     duration_s: float = 60.0,
     level: Flag = False,
 ) -> int:
-    """Make a recording of attitudes from pictures of a board of markers.
+    """Track a marker board in a video or from a camera, and record its attitude.
 
     Parameters
     ----------
