@@ -49,11 +49,13 @@ class Seeking:
     Attributes
     ----------
     hold
-        Parameter to keep at the testbed's value, such as inertia_P_zz. May be repeated.
+        Parameter to fix at the testbed's value, such as inertia_P_zz. May be repeated.
     term
-        Torque to seek too: viscous, quadratic, constant, swirl, sag or drift. May be repeated.
+        Torque term to estimate too: viscous, quadratic, constant, swirl, sag or drift. May be
+        repeated.
     prior
-        Use the testbed's inertia and centre of mass with their sd; this fixes an open scale.
+        Use the testbed's inertia and centre of mass with their sd as prior; this fixes an open
+        scale.
     """
 
     hold: Names = ()
@@ -72,7 +74,7 @@ class Spreading:
     Attributes
     ----------
     workers
-        Processes to spread trials, budgets, runs of a series or several recordings over.
+        Processes to distribute trials, budgets, runs of a series or recordings over.
     """
 
     workers: Whole = 1
@@ -91,7 +93,7 @@ class Searching:
     Attributes
     ----------
     budget_s
-        Processor time that a search may take; it ends then with the best that it has found.
+        Processor time of a search; it then ends with the best fit so far.
     """
 
     budget_s: float = BUDGET_S
@@ -108,26 +110,25 @@ class Reading:
     Attributes
     ----------
     from_s
-        Leave out what is before this time. Left out: of a bench's own record what is before the
-        platform was let go, else nothing.
+        Ignore rows before this time. Left out: in a bench's own record those before the release,
+        else none.
     to_s
-        Leave out what is after this time.
+        Ignore rows after this time.
     dialect
-        How to read the table: native, optitrack, vicon, qualisys, phyphox, ros or euler.
-        Left out: by its header.
+        Format of the table: native, optitrack, vicon, qualisys, phyphox, ros or euler. Left out: by
+        its header.
     columns
-        Column map (TOML) for a table of any other kind.
+        Column map (TOML) for any other table.
     topic
-        Topic of a log to take, where it has several. May be repeated.
+        Topic of a log to use, where it has several. May be repeated.
     body
-        Body of a motion-capture export to take, where it has several; of natnet: its name or id.
+        Rigid body of a motion-capture export to use, where it has several; natnet: its name or id.
     instance
-        Which of a log's sensors of one kind to take, counted from 0.
+        Sensor of a log to use, where it has several of a kind; counted from 0.
     bad_rows
-        Share of the rows that may be left out as faulty; with more the file is refused.
+        Greatest share of faulty rows; beyond it the file is refused.
     max_memory_mb
-        What reading a file may take, in MB. Left out: 64 times the file, at least 256, at most
-        2000.
+        Memory for reading a file, in MB. Left out: 64 times the file, at least 256, at most 2000.
     """
 
     from_s: float | None = None

@@ -34,28 +34,28 @@ def assess(
 ) -> int:
     """Quantify the residual gravity torque of a platform with confidence bounds.
 
-    Ends with 1 when the platform does not meet what is required, or the recording cannot decide it;
-    with nothing required, when the estimate is not to be trusted.
+    Exit code 1: the platform does not meet the requirement, or the recording cannot decide it;
+    without a requirement, the estimate is not trustworthy.
 
     Parameters
     ----------
     file
-        Recording of the platform swinging freely, as CSV or Parquet.
+        Recording of a free swing.
     testbed
         Testbed file, or a preset's name. Its inertia counts as known to its sd.
     before
-        A recording made before balancing, to compare with.
+        Recording from before balancing, for comparison.
     tilt_deg
-        Torque counts over directions within so many degrees of level.
+        Evaluate torque over all directions within this angle of level.
     target_um
-        Where the centre of mass is wanted, from the centre of rotation, body axes.
+        Target of the centre of mass, from the centre of rotation, body axes.
     require_torque
-        Torque of gravity that is allowed, rms over that range, N m.
+        Greatest permitted gravity torque, rms over these directions, N m.
     require_offset_um
-        Distance of the centre of mass from its target that is allowed.
+        Greatest permitted distance of the centre of mass from its target.
     windows_s
-        Assess windows of so many seconds along the recording too: drift, walk and Allan deviation
-        of the centre of mass.
+        Also assess windows of this length along the recording: drift, random walk and Allan
+        deviation of the centre of mass.
     out
         Folder for figures, report.html and assess.json.
     """

@@ -62,40 +62,41 @@ def balance(
 ) -> int:
     """Balance a platform: measure, move masses, and verify the result on fresh data.
 
-    The platform is simulated, or with --bench the real one that the testbed's [hardware] declares.
-    With --manual a person places weights instead of masses that move, on a real platform if a
-    --session is named; with --then-masses too, only until the masses can correct the rest. Ends
-    with 1 when the verdict is that the platform is not balanced, with 130 when Ctrl-C stopped it,
-    143 SIGTERM, 129 SIGHUP.
+    The platform is simulated; with --bench it is the real one of the testbed's [hardware]. With
+    --manual a person places weights instead, on a real platform if --session names a file; with
+    --then-masses only until the masses can correct the rest. Exit code 1: the verdict is that the
+    platform is not balanced; 130, 143, 129: stopped by Ctrl-C, SIGTERM, SIGHUP.
 
     Parameters
     ----------
     testbed
-        Testbed file, or a preset's name. Its [truth] says what the simulated platform is like.
+        Testbed file, or a preset's name. Its [truth] defines the simulated platform.
     law
-        How to balance; `equipoise laws` lists them.
+        Control law; `equipoise laws` lists them.
     seed
-        Seed of all that is drawn: the same seed gives the same run.
+        Random seed; the same seed gives the same run.
     series
-        Balance the simulated platform that the seed draws so many times; the seeds of the runs
-        follow the first. The folder gets run_01.csv and so on, what each run recorded.
+        Balance the simulated platform of the seed this many times, with consecutive seeds. The
+        folder gets each recording as run_01.csv and so on.
     plan
-        Plan file: begin with its manoeuvre, then balance on all that was recorded. Of
-        measure_and_move alone, without a hold.
+        Plan file: start with its manoeuvre, then balance on everything recorded. For
+        measure_and_move without a hold.
     target_um
-        Where the centre of mass is wanted, from the centre of rotation, body axes.
+        Target of the centre of mass, from the centre of rotation, body axes.
     tolerance_um
-        How near to the target is near enough, along each axis.
+        Tolerance around the target along each axis.
     max_moves
-        Moves of the masses before giving up: 3, or 10 before a hold. Of measure_and_move alone.
+        Greatest number of moves: 3, or 10 before a hold. For measure_and_move.
     max_time_s
-        Bench time before giving up: 120, or 600 before a hold or with another law.
+        Greatest bench time: 120, or 600 before a hold or with another law.
     hold_min
-        Then follow the drift, declared or not, and hold the balance for so many minutes. After
-        measure_and_move, which measures to two fifths of the tolerance before, since its errors
-        stay; after momentum_buildup, whose masses follow the tilt too, by the sag that it found.
+        Then track the drift, declared or not, and hold the balance for this many minutes. After
+        measure_and_move, which then measures to two fifths of the tolerance because its errors
+        remain; or after momentum_buildup, whose masses also follow the tilt by the sag that it
+        estimated.
     out
-        Folder for report, figures and balance.json; else one of its own in equipoise-runs.
+        Folder for report, figures and balance.json. Left out: a folder of its own in
+        equipoise-runs.
     """
     from equipoise.app.arguments.checks import check_outputs, one_of, seed_of
     from equipoise.app.arguments.inputs import plan_from, testbed_from

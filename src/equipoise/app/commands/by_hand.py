@@ -23,18 +23,18 @@ class Manual:
     Attributes
     ----------
     manual
-        Instruct a person which weights to put where, recording by recording. Without --session the
-        person is simulated.
+        Instruct a person which weights to place where, recording by recording. Without --session
+        the person is simulated.
     session
-        File in which a real balancing by hand is kept; it is made if there is none.
+        File of a real balancing by hand; created if it does not exist.
     recording
-        The next free swing of that session, as CSV or Parquet.
+        Next free swing of that session.
     max_rounds
-        Placings of weights before giving up.
+        Greatest number of placings.
     then_masses
-        For a testbed with weights and sliding masses: a person places weights only until the masses
-        can correct the rest, then they do, by --law. In a --session the masses go on with --bench,
-        from what its recordings have shown; without one all of it is simulated.
+        For a testbed with weights and sliding masses: a person places weights until the masses can
+        correct the rest, then --law takes over. In a --session the masses continue with --bench,
+        from what its recordings have shown; without one everything is simulated.
     """
 
     manual: Flag = False

@@ -41,20 +41,20 @@ def calibrate(
 ) -> int:
     """Calibrate masses and sensors from a recording of commanded moves.
 
-    Ends with 1 when the calibration is not usable; then nothing is written.
+    Exit code 1: the calibration is not usable; then nothing is written.
 
     Parameters
     ----------
     file
-        Recording, as CSV or Parquet. Left out with --moves.
+        Recording of commanded moves. Left out with --moves.
     testbed
         Testbed file, or a preset's name.
     moves
-        Print the moves to command for such a recording, and calibrate nothing.
+        Print the moves to command for such a recording; calibrate nothing.
     reference
-        Mass whose weight and steps you trust, which fixes the scale. May be repeated.
+        Mass whose weight and steps you trust; it fixes the scale. May be repeated.
     write
-        Testbed file to write with what was found; comments of the old one stay.
+        Testbed file to write with the result; comments are kept.
     out
         Folder for report and calibrate.json.
     """

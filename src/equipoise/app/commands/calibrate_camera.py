@@ -19,27 +19,27 @@ def calibrate_camera(
 ) -> int:
     """Calibrate a camera lens from pictures of a ChArUco board.
 
-    Take some 15, the board near enough to fill half of the picture, in every part of it, tilted by
-    20 to 40 deg each way. Lens, focus and size of picture stay as they will be used.
+    Take about 15 pictures with the board filling half of the picture, in all parts of it, tilted by
+    20 to 40 deg each way. Keep lens, focus and picture size as they will be used.
 
     Parameters
     ----------
     pictures
         Picture files, or folders of them.
     out
-        TOML file to write, with the lens's keys.
+        TOML file to write, with the lens parameters.
     columns
         Squares of the chessboard from left to right.
     rows
         Squares from top to bottom.
     square_mm
-        Side of a square, as measured on the print.
+        Side of a square, measured on the print.
     marker_mm
         Side of a marker.
     dictionary
-        Its markers: 4X4_50 or another dictionary of ArUco or AprilTag.
+        Marker dictionary: 4X4_50 or another of ArUco or AprilTag.
     legacy
-        The print is in the legacy pattern, as OpenCV before 4.6 and other tools draw it.
+        The print has the legacy pattern, as drawn by OpenCV before 4.6 and by other tools.
     """
     from equipoise.app.arguments.checks import positive
     from equipoise.app.console.rich_blocks import show

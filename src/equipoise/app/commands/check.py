@@ -15,16 +15,16 @@ def check(testbed: str, /, *, yes: Flag = False, explain: Flag = False) -> int:
     """Test every device of a real bench; move each mass by 1 mm and back.
 
     Masses go home first. Turn the platform a little by hand while the sensors stream, so that the
-    signs of gyro and attitude can be compared. Ends with 1 when something is wrong.
+    signs of gyro and attitude can be compared. Exit code 1: something is wrong.
 
     Parameters
     ----------
     testbed
         Testbed file with a [hardware] table.
     yes
-        Move masses and drive devices without asking.
+        Move masses and drive devices without confirmation.
     explain
-        Print the conversation with each device as it happens, both directions, in words.
+        Print and explain the conversation with each device as it happens.
     """
     from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.bench.bench_check import checked_bench

@@ -33,15 +33,15 @@ class JudgingLaws:
     Attributes
     ----------
     target_um
-        Laws: where the centre of mass is wanted, from the centre of rotation, body axes.
+        Laws: target of the centre of mass, from the centre of rotation, body axes.
     tolerance_um
-        Laws: how near to the target is near enough, along each axis; verdicts are about it.
+        Laws: tolerance around the target along each axis; verdicts refer to it.
     tilt_deg
-        Laws: torque counts over directions within so many degrees of level.
+        Laws: evaluate torque over all directions within this angle of level.
     require_torque
-        Laws: torque that is wanted at most, rms over that range, N m.
+        Laws: wanted torque at most, rms over these directions, N m.
     max_time_s
-        Laws: bench time that each run may take, its proof included.
+        Laws: bench time of each run, verification included.
     """
 
     target_um: Triple = (0.0, 0.0, 0.0)
@@ -76,22 +76,22 @@ def compare(
 ) -> int:
     """Compare estimation methods on the same records, or control laws on the same platforms.
 
-    Platforms are simulated, and their truth judges. Ends with 1 when no method can be recommended
-    for the centre of mass, or no law.
+    Platforms are simulated, and their truth judges. Exit code 1: no method can be recommended for
+    the centre of mass, or no law.
 
     Parameters
     ----------
     testbed
-        Testbed file, or a preset's name. Its [truth] says what the simulated platforms are like.
+        Testbed file, or a preset's name. Its [truth] defines the simulated platforms.
     methods
-        Compare methods of `equipoise methods`.
+        Compare the methods of `equipoise methods`.
     laws
-        Compare laws of `equipoise laws`.
+        Compare the laws of `equipoise laws`.
     only
-        Methods and laws to compare, one or several with commas; may be repeated. Of a kind that
-        none is named of: all, of laws those that the testbed has the devices for.
+        Methods and laws to compare, separated by commas; may be repeated. Default: all methods, and
+        all laws for which the testbed has the devices.
     runs
-        Platforms, each with one record for all methods and one balancing by each law.
+        Number of platforms; each has one record for all methods and one balancing by each law.
     seed
         Seed of the first platform; the others follow.
     duration_s
@@ -99,12 +99,12 @@ def compare(
     move
         Methods: move of masses, "seconds: mass=mm mass=mm" from home. May be repeated.
     workers
-        Processes to spread the runs over.
+        Processes to distribute the runs over.
     resume
-        Folder that keeps each result as it comes. Of those that it has, none is computed again: so
-        a comparison goes on that was ended, and takes in more runs.
+        Folder that keeps each result as it arrives. Results that it has are not computed again, so
+        an interrupted comparison continues and can be extended.
     out
-        Folder for the report, figures, compare.json, and methods.csv or laws.csv, a line a run.
+        Folder for report, figures, compare.json, and methods.csv or laws.csv with one line per run.
     """
     from equipoise.app.arguments.checks import check_outputs, duration_of, positive, seed_of
     from equipoise.app.arguments.inputs import move_of, options_of, testbed_from

@@ -22,17 +22,17 @@ class Captured:
     Attributes
     ----------
     driver
-        The file holds a sensor's bytes: lines, vectornav, mavlink or natnet. Of lines, --columns
-        are the columns' names with commas between.
+        The file holds raw bytes of a sensor: lines, vectornav, mavlink or natnet. For lines,
+        --columns lists the column names, separated by commas.
     testbed
         Testbed file whose sensor with this driver has the settings and the alignment; the options
-        below go before.
+        below take precedence.
     form
-        Of lines: csv or json.
+        Lines: csv or json.
     laboratory
-        Frame of the attitude: ned, z_up or y_up. Left out: as is usual with the driver.
+        Frame of the attitude: ned, z_up or y_up. Left out: the driver's usual one.
     rate_hz
-        At which rows came, where neither they nor the file have a time.
+        Sample rate, where neither rows nor file have a time.
     """
 
     driver: Annotated[str | None, Parameter(name="--as")] = None
@@ -50,15 +50,15 @@ def convert(
 ) -> int:
     """Convert a recording, or the saved bytes of a sensor, to another format.
 
-    Lines with '~' say what was set right or left aside. Events stay in the file that has them.
+    Lines marked '~' state corrections and omissions. Events remain in the file that has them.
 
     Parameters
     ----------
     file
         Recording: CSV, Excel, Parquet, MCAP, MAT, a bag of ROS 1 or 2, a log of PX4 (ULog),
-        ArduPilot (.bin) or MAVLink (.tlog), or a VectorNav's log of a terminal that put its clock
-        in front of each line; also in .gz, .zst or .zip. With --as: any terminal's log, a .tlog,
-        or network traffic (.pcap, .pcapng).
+        ArduPilot (.bin) or MAVLink (.tlog), or a VectorNav terminal log with a time stamp on each
+        line; also in .gz, .zst or .zip. With --as: any terminal log, a .tlog, or captured network
+        traffic (.pcap, .pcapng).
     out
         File to write: .csv, .parquet, .mcap or .mat.
     """

@@ -28,9 +28,9 @@ def dashboard(
 ) -> int:
     """Show a bench live in the browser, balance it from there, or replay a recording.
 
-    Whoever opens the page can watch; commanding takes the token that is printed here, and one page
-    at a time has it. Closing the page changes nothing on the bench. Ctrl-C ends the dashboard and
-    halts every mass.
+    Anyone who opens the page can observe. Commands require the token that is printed here, and one
+    page at a time has control. Closing the page changes nothing on the bench. Ctrl-C ends the
+    dashboard and halts every mass.
 
     Parameters
     ----------
@@ -38,16 +38,16 @@ def dashboard(
         Testbed file or a preset's name: its simulated platform, or with --bench the real one. Or a
         recording, or the folder of a run, to replay.
     testbed
-        Of a recording: testbed file, or a preset's name.
+        For a recording: testbed file, or a preset's name.
     seed
         Seed of the simulated platform.
     bench
-        Show the real bench that the testbed's [hardware] declares.
+        Show the real bench of the testbed's [hardware].
     port
-        Port of this computer; 0: any that is free.
+        Port on this computer; 0: any free one.
     expose
         Address of this computer at which others may open the page, such as 192.168.1.5. The token
-        is then needed to watch, too. Left out: this computer alone.
+        is then also required to observe. Left out: this computer only.
     """
     from equipoise.app.arguments.checks import seed_of
     from equipoise.io.formats.optional_libraries import extra_library

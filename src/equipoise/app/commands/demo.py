@@ -14,7 +14,7 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     out
         Folder for report, figures and balance.json.
     seed
-        Seed of all that is drawn: the same seed gives the same run.
+        Random seed; the same seed gives the same run.
     """
     from equipoise.app.arguments.checks import check_outputs, seed_of
     from equipoise.io.testbed.presets import read_preset

@@ -24,25 +24,25 @@ def design(
 ) -> int:
     """Size the masses and sensors of a testbed: reach, resolution, achievable torque.
 
-    The budget is for the shortest record. Ends with 1 when a required torque cannot be met.
+    The torque budget is for the shortest record. Exit code 1: the required torque cannot be met.
 
     Parameters
     ----------
     testbed
         Testbed file, or a preset's name.
     record_s
-        Lengths of the records that the centre of mass is estimated from, s.
+        Lengths of the records from which the centre of mass is estimated, s.
     target_um
-        Where the centre of mass is wanted, from the centre of rotation, body axes.
+        Target of the centre of mass, from the centre of rotation, body axes.
     tilt_deg
-        Torque counts over directions within so many degrees of level.
+        Evaluate torque over all directions within this angle of level.
     moves
-        How often the centre of mass is estimated and the masses are moved.
+        Number of measure-and-move iterations.
     misalignment_deg
-        How far rails lean from where the testbed has them, one sd about both axes across.
+        Misalignment of the rails, one sd about each transverse axis.
     require_torque
-        Torque that may be left at most, rms over that range, N m; with 95 % of the platforms that
-        the testbed states within reach of the masses.
+        Greatest permitted residual torque, rms over these directions, N m, with 95 % of the
+        platforms within reach of the masses.
     out
         Folder for report, figures and design.json.
     """

@@ -13,20 +13,20 @@ if TYPE_CHECKING:
 def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | None = None) -> int:
     """Start emulated devices that speak the real protocols.
 
-    The platform is held until its masses have come home, and caught when it tilts too far. Devices
-    run until Ctrl-C. Meanwhile other commands reach them through the testbed file that is
-    written: equipoise balance OUT --bench.
+    The platform is held until its masses are home, and caught when it tilts too far. Devices run
+    until Ctrl-C. Other commands reach them through the testbed file that is written: equipoise
+    balance OUT --bench.
 
     Parameters
     ----------
     testbed
         Testbed file with a [hardware] table, or a preset's name.
     out
-        Testbed file to write: the same, with the ports at which the emulated devices are reached.
+        Testbed file to write: the same, with the ports of the emulated devices.
     seed
-        Seed of all that is drawn: the same seed gives the same platform.
+        Random seed; the same seed gives the same platform.
     max_time_s
-        End by itself after so long.
+        Stop after this time.
     """
     from equipoise.app.arguments.checks import positive, seed_of
     from equipoise.app.arguments.inputs import testbed_from

@@ -50,30 +50,30 @@ def identify(
     """Estimate centre of mass and inertia from recordings, with confidence intervals.
 
     Several recordings of one platform are fitted jointly: inertia and centre of mass are common,
-    starts, biases and moves each one's own. A verdict says whether the runs agree.
-
-    Ends with 1 when the estimate is not usable, or the runs do not agree; the sentences under the
-    tables say why. So it does, without a fit, for a record that cannot be what it says it is.
+    starts, biases and moves are individual. A test states whether the runs agree. Exit code 1: the
+    estimate is not usable, the runs do not agree, or the record is implausible; the sentences below
+    the tables give the reason.
 
     Parameters
     ----------
     file
-        Recording, as CSV or Parquet.
+        Recording of a free swing.
     more
         Further recordings of the same platform, fitted jointly with the first.
     testbed
         Testbed file, or a preset's name.
     method
-        auto, or one of those that `equipoise methods` lists; several recordings: trajectory.
+        auto, or a method of `equipoise methods`; several recordings: trajectory.
     robust
-        Give outliers less weight.
+        Down-weight outliers (Huber loss).
     force
-        Fit a record that cannot be what it says it is, such as one with a gyro in another unit.
+        Fit an implausible record, such as one with a gyro in another unit.
     plan
-        Plan file that the recording was made by: what it predicted is compared with what is found.
-        Of one recording.
+        Plan file of the recording; its predicted sd are compared with the result. One recording
+        only.
     out
-        Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
+        Folder for report, figures and identify.json. Left out: a folder of its own in
+        equipoise-runs.
     """
     from equipoise.app.arguments.checks import check_outputs, one_of
     from equipoise.app.arguments.inputs import (

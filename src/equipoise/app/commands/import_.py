@@ -32,20 +32,21 @@ def import_(
 ) -> int:
     """Determine what the columns of an unknown table are, and read it.
 
-    Whole readings are compared (clock and its unit, order and direction of the quaternion, axes,
-    signs and unit of the gyro, which axis is up) by unit length, gravity and the gyro. The best is
-    shown with its evidence and the next. Ends with 1 when several are alike; choose one.
+    Complete interpretations are compared by unit length, gravity and gyro: clock and its unit,
+    order and direction of the quaternion, axes, signs and unit of the gyro, vertical axis. The best
+    is shown with its evidence and the runner-up. Exit code 1: several fit equally; choose one.
 
     Parameters
     ----------
     file
-        Table or log: CSV, Excel, Parquet, MAT and whatever `convert` reads.
+        Table or log: CSV, Excel, Parquet, MAT, or any format that `convert` reads.
     testbed
-        Testbed file or preset: says which body axis is up, and checks that the platform stands.
+        Testbed file, or a preset's name: defines the vertical body axis and checks that the
+        platform stands upright.
     choose
-        Reading to take, by its number, where several are alike.
+        Interpretation to use, by its number.
     write_map
-        Column map to write (TOML); every command that reads a recording takes it with --columns.
+        Column map to write (TOML); every command that reads a recording accepts it with --columns.
     out
         Recording to write: .csv, .parquet, .mcap or .mat.
     """

@@ -24,21 +24,21 @@ def inertia(
 ) -> int:
     """Sum a list of parts to mass properties, and combine them with swing tests.
 
-    Ends with 1 when no body can have these properties, when swings and parts contradict each other,
-    or when swings leave part of an unknown inertia open; then nothing is written.
+    Exit code 1: no body can have these properties, swings and parts contradict each other, or
+    swings leave part of an unknown inertia open; then nothing is written.
 
     Parameters
     ----------
     parts
-        Parts file (TOML): what floats, the masses at home among it, and how it swung.
+        Parts file (TOML): everything that floats, masses at home included, and its swing tests.
     testbed
-        Testbed file, or a preset's name, to write the mass properties into.
+        Testbed file, or a preset's name, that receives the mass properties.
     write
-        Testbed file to write; comments of the old one stay.
+        Testbed file to write; comments are kept.
     schema
         Print the JSON Schema of parts files instead, for editors that check keys.
     out
-        Folder for report and inertia.json; it shows the testbed with this body.
+        Folder for report and inertia.json, with the testbed and this body.
     """
     if schema:
         return _print_schema()

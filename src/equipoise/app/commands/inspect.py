@@ -23,17 +23,17 @@ def inspect(
 ) -> int:
     """Summarise a recording: channels, rates, gaps, faults.
 
-    Lines with '!' name what an estimate will suffer from, lines with '~' what was set right.
+    Lines marked '!' name what impairs an estimate, lines marked '~' corrections.
 
     Parameters
     ----------
     file
-        Recording, as CSV or Parquet.
+        Recording.
     testbed
-        Testbed file or preset: adds what depends on it, such as which axis is up, and events of
-        the record: touches, parts that shifted.
+        Testbed file, or a preset's name: adds checks that depend on it, such as the vertical axis,
+        and events: contacts and shifted parts.
     figure
-        Page with the record and its findings to write, such as record.png.
+        Figure of the record and its findings to write, such as record.png.
     """
     from equipoise.app.arguments.inputs import recording_of, testbed_from
     from equipoise.app.logbook.output import print_result

@@ -14,17 +14,17 @@ def laws(
 ) -> int:
     """List the control laws, or describe one.
 
-    Errata that a source names are entries of docs/errata.md.
+    Errata cited by a source are entries of docs/errata.md.
 
     Parameters
     ----------
     name
-        Law to show. Left out: list them all.
+        Law to describe. Left out: list all.
     testbed
-        Testbed file, or a preset's name: say whether each law can balance it, and how long that
-        should take, where the law can calculate it.
+        Testbed file, or a preset's name: states whether each law can balance it, and the expected
+        time where the law can calculate it.
     target_um
-        With --testbed: where the centre of mass is wanted, as `equipoise balance` has it.
+        With --testbed: target of the centre of mass, as in `equipoise balance`.
     """
     from equipoise.app.api import catalogues
     from equipoise.app.commands.methods import print_cards

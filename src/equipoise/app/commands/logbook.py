@@ -24,22 +24,22 @@ def logbook(
 ) -> int:
     """List, compare and export the runs that were kept.
 
-    The index beside the runs, logbook.sqlite, can be deleted: it is made anew from their folders.
+    The index beside the runs, logbook.sqlite, can be deleted; it is rebuilt from their folders.
 
     Parameters
     ----------
     folder
-        Folder of runs. Left out: what EQUIPOISE_RUNS names, else equipoise-runs.
+        Folder of runs. Left out: the one that EQUIPOISE_RUNS names, else equipoise-runs.
     compare
-        Runs to set side by side, by their number in the list or by name, with or without the
-        folder of its month; the first one as what the others are compared with.
+        Runs to show side by side, by number in the list or by name, with or without the folder of
+        the month. The first is the reference.
     builds
-        List instead the testbed files that platforms have had, and what changed in each.
+        List the testbed files that platforms have had, and their differences.
     trend
-        Figure to write (.png, .svg, .pdf): centre of mass and inertia over time, changes of the
-        testbed file marked; against temperature too where that was recorded.
+        Figure to write (.png, .svg, .pdf): centre of mass and inertia over time, with changes of
+        the testbed file marked, and over temperature where recorded.
     export
-        Table to write (.csv or .parquet): a line a run, SI units.
+        Table to write (.csv or .parquet): one line per run, SI units.
     """
     from equipoise.app.logbook.run_folder import USUAL, runs_folder
     from equipoise.io.documents.logbook import open_logbook

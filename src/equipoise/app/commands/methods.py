@@ -11,12 +11,12 @@ if TYPE_CHECKING:
 def methods(name: str | None = None, /, *, json: Json = False) -> int:
     """List the estimation methods, or describe one.
 
-    Errata that a source names are entries of docs/errata.md.
+    Errata cited by a source are entries of docs/errata.md.
 
     Parameters
     ----------
     name
-        Method to show. Left out: list them all.
+        Method to describe. Left out: list all.
     """
     from equipoise.app.api import catalogues
 

@@ -25,7 +25,7 @@ def new(
     Parameters
     ----------
     preset
-        Name of the preset, such as sputnix.
+        Preset to start from, such as sputnix.
     from_
         File with mass properties to put into it: a text of SolidWorks, Fusion, Inventor, Creo,
         Onshape or FreeCAD, a URDF, SDF or MJCF file. Its origin is taken as the centre of rotation.

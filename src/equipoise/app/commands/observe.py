@@ -27,14 +27,14 @@ def observe(
 ) -> int:
     """Compute the Cramer-Rao bound: what a recording can determine at best.
 
-    Nothing is estimated. Motion and sensors decide, not what the rows happen to say.
+    Nothing is estimated: motion and sensor noise determine the bound.
 
     Parameters
     ----------
     file
-        Recording, as CSV or Parquet.
+        Recording.
     testbed
-        Testbed file, or a preset's name; its sensors' noise counts.
+        Testbed file, or a preset's name, with the sensor noise.
     out
         Folder for report and observe.json.
     """

@@ -26,13 +26,13 @@ class OnBench:
     Attributes
     ----------
     bench
-        Balance the real bench. The procedure is practised in simulation, then masses go home, then
-        the platform is let go. Ctrl-C, SIGTERM or a lost terminal halts the masses and saves, a
-        second one leaves.
+        Balance the real bench. The procedure is rehearsed in simulation, masses go home, then the
+        platform is released. Ctrl-C, SIGTERM or a lost terminal halts the masses and saves; a
+        second one exits.
     record
         With --bench: MCAP file to write as rows arrive, with every command and interlock.
     foxglove
-        With --bench: also serve it live to Foxglove, Lichtblick or PlotJuggler, on this computer.
+        With --bench: also serve it live to Foxglove, Lichtblick or PlotJuggler on this computer.
     yes
         With --bench: do not ask whether somebody holds the platform.
     """

@@ -41,34 +41,34 @@ def plan(
 ) -> int:
     """Plan the most informative manoeuvre for a platform.
 
-    Chosen are tilt and rate at the start, times and sizes of moves, and square waves for wheels and
-    gyros where there are any. Limits are kept on platforms drawn from what is known, let go by a
-    hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them, and at
-    once with 2 when the mildest manoeuvres and the first ones tried pass them on too many.
-    Predicted sd are those of a fit in the model that the testbed states.
+    Optimises the release (tilt and rate), times and sizes of moves, and square waves of wheels and
+    gyros where present. Limits are kept over platforms drawn from the prior, with release errors of
+    1 deg and 0.5 deg/s. Predicted sd are those of a fit in the testbed's model. Exit code 1: not
+    all of 300 further platforms keep the limits; 2: even the mildest manoeuvres exceed them too
+    often.
 
     Parameters
     ----------
     testbed
         Testbed file, or a preset's name.
     duration_s
-        Length of the record to plan.
+        Length of the record.
     quantity
-        What is to be known: J, the inertia; r, the centre of mass with masses at home; or both.
+        Quantity to determine: J, the inertia; r, the centre of mass with masses at home; or both.
     criterion
-        A: the mean square of sd, in 1 % of a moment and 1 um; D: the volume of the ellipsoid.
+        A: mean square of the sd, in 1 % of a moment and 1 um; D: volume of the ellipsoid.
     moves
-        How many times masses are moved.
+        Number of moves of the masses.
     max_rate_deg_s
         Greatest rate of the platform.
     prior_record
-        A recording that was made before: what it shows is known, masses stand where it left them.
+        Earlier recording: its information is included, and masses start where it left them.
     trials
-        How many manoeuvres to try.
+        Number of manoeuvres to try.
     seed
-        Seed of the search and of the platforms: the same seed plans the same.
+        Seed of the search and of the platforms; the same seed gives the same plan.
     write
-        Plan file to write; simulate, identify and balance take it with --plan.
+        Plan file to write; simulate, identify and balance accept it with --plan.
     out
         Folder for report and plan.json.
     """

@@ -7,13 +7,13 @@ from equipoise.app.console.terminal import counted_pieces, print_whole
 def precompile(*, workers: Whole | None = None) -> int:
     """Compile all kernels now, so that no later command waits for it.
 
-    Kernels are compiled once on a computer, by the first command that needs them. This runs every
-    such command once on a short simulated record, in a folder of its own that is removed again.
+    Kernels are compiled once per computer, by the first command that needs them. This runs every
+    such command once on a short simulated record, in a temporary folder.
 
     Parameters
     ----------
     workers
-        How many commands run at once. Left out: one for each processor.
+        Number of concurrent commands. Left out: one per processor.
     """
     import os
     from pathlib import Path

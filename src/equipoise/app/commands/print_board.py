@@ -23,31 +23,32 @@ def print_board(
 ) -> int:
     """Draw a marker board to print, for a platform under a camera.
 
-    Measure a marker and a gap on the print, and put into settings what you find.
+    Measure a marker and a gap on the print, and enter what you measured in the settings.
 
     Parameters
     ----------
     out
         File to write: .pdf or .png.
     columns
-        Markers from left to right; with --square-mm squares. One column and one row: a single one.
+        Markers from left to right; with --square-mm: squares. One column and one row: a single
+        marker.
     rows
-        Markers from top to bottom; with --square-mm squares.
+        Markers from top to bottom; with --square-mm: squares.
     marker_mm
         Side of a marker.
     gap_mm
-        Between neighbours.
+        Gap between neighbours.
     dictionary
         4X4_50 or another dictionary of ArUco or AprilTag.
     first_id
-        Id of the upper left marker; of an AprilGrid of the lower left one.
+        Id of the upper left marker; of an AprilGrid: of the lower left one.
     spacing
-        Draw Kalibr's AprilGrid, its gap this share of a tag's side; --gap-mm and --dictionary
-        do not count.
+        Draw a Kalibr AprilGrid with this ratio of gap to tag; --gap-mm and --dictionary are
+        ignored.
     square_mm
-        Draw instead a chessboard with markers, for `calibrate-camera`, with squares of this side.
+        Draw a chessboard with markers instead, for `calibrate-camera`, with squares of this side.
     legacy
-        With --square-mm: in the legacy pattern, as OpenCV before 4.6 draws it.
+        With --square-mm: the legacy pattern of OpenCV before 4.6.
     keys
         TOML file to write with the board's keys, for `track` and for settings.
     """

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Flag = False) -> int:
     """Record every sensor of a real bench without moving a mass.
 
-    Rows are written as they arrive: what is older than a second is safe whatever happens. Ctrl-C
-    ends the record early.
+    Rows are written as they arrive: what is older than a second survives any failure. Ctrl-C ends
+    the record early.
 
     Parameters
     ----------
@@ -24,9 +24,9 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
     out
         MCAP file to write.
     duration_s
-        How long.
+        Length of the record.
     foxglove
-        Also serve it live to Foxglove, Lichtblick or PlotJuggler, on this computer.
+        Also serve it live to Foxglove, Lichtblick or PlotJuggler on this computer.
     """
     from equipoise.app.arguments.checks import positive
     from equipoise.app.arguments.inputs import testbed_from

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 def repair(file: str, /, *, out: Path, max_memory_mb: float | None = None) -> int:
     """Recover the readable part of a damaged recording.
 
-    What is written has an index, by which Foxglove finds its way in hours of it; a recording that
-    was just made has none. Of one that is whole and has an index nothing is written.
+    The repaired file has an index, by which Foxglove navigates hours of data. Nothing is written
+    for a file that is whole and has an index.
 
     Parameters
     ----------
@@ -22,8 +22,7 @@ def repair(file: str, /, *, out: Path, max_memory_mb: float | None = None) -> in
     out
         File to write, .mcap.
     max_memory_mb
-        What reading the file may take, in MB. Left out: 64 times the file, at least 256, at most
-        2000.
+        Memory for reading the file, in MB. Left out: 64 times the file, at least 256, at most 2000.
     """
     from equipoise.app.arguments.inputs import memory_of
     from equipoise.app.arguments.options import Reading

@@ -20,7 +20,7 @@ def replay(
 ) -> int:
     """Play a recording back in the terminal.
 
-    Cut off from a terminal, a line is printed for every second of the recording.
+    Where output is not a terminal, one line is printed for every second of the recording.
 
     Parameters
     ----------
@@ -29,9 +29,9 @@ def replay(
     testbed
         Testbed file, or a preset's name.
     speed
-        How many seconds of the recording pass in one; 0: as fast as possible.
+        Seconds of the recording per second; 0: as fast as possible.
     foxglove
-        Also serve it to Foxglove, Lichtblick or PlotJuggler, on this computer.
+        Also serve it to Foxglove, Lichtblick or PlotJuggler on this computer.
     """
     from contextlib import ExitStack
 

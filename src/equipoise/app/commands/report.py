@@ -9,14 +9,15 @@ from equipoise.app.console.terminal import busy, show_paths
 def report(run: Path, /, *, png: Flag = False) -> int:
     """Rebuild the report of a run.
 
-    A run that was made without typst has no PDF: install it, then use this.
+    A run that was made without typst has no PDF: install it (pip install equipoise[report]), then
+    use this.
 
     Parameters
     ----------
     run
         Folder of a run.
     png
-        Write each figure as PNG too, of 300 pixels an inch.
+        Also write each figure as PNG, 300 pixels per inch.
     """
     with busy("setting the report", announce=False):
         from equipoise.app.report.write import set_again

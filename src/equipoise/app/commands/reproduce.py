@@ -50,11 +50,11 @@ def reproduce(
     Parameters
     ----------
     paper
-        Paper to reproduce; left out, they are listed, with all that they ask for.
+        Paper to reproduce. Left out: list the papers and their items.
     runs
-        Experiments and platforms, where a paper has several: seeds from the first one on.
+        Number of experiments and platforms, where a paper has several.
     seed
-        Seed of all that is drawn: the same seed gives the same run.
+        Random seed; the same seed gives the same run.
     out
         Folder for the paper's figures, report.html and reproduce.json.
     """

@@ -28,28 +28,27 @@ def simulate(
 ) -> int:
     """Simulate a platform, and write what its sensors record.
 
-    A series is of one platform, each run with a start and noise of its own, as `identify` takes it.
-
-    A platform that would swing to its stop is let go nearer to where it hangs. One that meets its
-    stop even so, or as a plan or [truth] starts it, is said to, and when.
+    A series is of one platform, each run with its own start and noise, as `identify` accepts it. A
+    platform that would swing to its stop is released closer to its equilibrium. If it still reaches
+    its stop, or a plan or [truth] starts it there, the command states when.
 
     Parameters
     ----------
     testbed
-        Testbed file, or a preset's name. Its [truth] says what the simulated platform is like.
+        Testbed file, or a preset's name. Its [truth] defines the simulated platform.
     out
-        File to write: .csv, .parquet, .mcap or .mat. With --series a folder, for run_01.csv and so
+        File to write: .csv, .parquet, .mcap or .mat. With --series: a folder for run_01.csv and so
         on.
     duration_s
-        Length of the record: 120, or as the plan has it.
+        Length of the record: 120, or as planned.
     plan
-        Plan file: how the platform is let go, by a hand that errs, and what is done then.
+        Plan file: how the platform is released, with a person's errors, and what is done then.
     move
         Move of masses, "seconds: mass=mm mass=mm", as displacements from home. May be repeated.
     seed
-        Seed of all that is drawn: the same seed gives the same record.
+        Random seed; the same seed gives the same record.
     series
-        Simulate so many runs of the platform that the seed draws; their seeds follow the first.
+        Simulate this many runs of the platform of the seed, with consecutive seeds.
     """
     from equipoise.app.arguments.checks import duration_of, positive, seed_of
     from equipoise.app.arguments.inputs import move_of, plan_from, testbed_from

@@ -38,15 +38,15 @@ def track(
     board
         File with the board's keys, as `print-board` writes it.
     lens
-        File with the lens's keys, as `calibrate-camera` writes it.
+        File with the lens parameters, as `calibrate-camera` writes it.
     testbed
-        Testbed file whose camera's settings and alignment are taken; --board and --lens go before.
+        Testbed file with the camera's settings and alignment; --board and --lens take precedence.
     rate_hz
-        Pictures per second, of a folder, or of a video that states it wrongly.
+        Pictures per second, of a folder or of a video that states it wrongly.
     duration_s
-        How long to watch a camera.
+        Duration of a camera recording.
     level
-        The board lies level, face up: print which way is up for the camera, to put into settings.
+        The board lies level, face up: print the camera's vertical, for the settings.
     """
     from equipoise.app.arguments.checks import positive
     from equipoise.app.arguments.inputs import testbed_from
