@@ -1,7 +1,7 @@
 """The body that a run found, out of the JSON document of its folder.
 
-``identify.json``, ``calibrate.json`` and ``inertia.json`` hold one estimate, ``balance.json`` one in
-a step: the last is of the platform as it was left.
+``balance.json`` holds an estimate in each step that has one: the last is of the platform as it was
+left. The others hold one.
 """
 
 import math
@@ -21,7 +21,10 @@ from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.stated_body import StatedBody, tensor_of
 from equipoise.model.testbed import Testbed
 
-DOCUMENTS = ("identify.json", "balance.json", "inertia.json", "calibrate.json")
+DOCUMENTS = (
+    "estimate.json", "identify_runs.json", "balance.json", "inertia.json", "calibrate.json",
+    "assess.json",
+)  # fmt: skip
 WANTED = "the folder of a run that identified a platform, or its JSON document"
 MASS = "mass"
 
@@ -44,8 +47,10 @@ class _Found(BaseModel):
     covariance: list[list[float | None]]
 
 
-class _Parts(BaseModel):
-    schema_: Literal["equipoise/inertia/1"] = Field(alias="schema")
+class _Holding(BaseModel):
+    schema_: Literal[
+        "equipoise/inertia/1", "equipoise/identify_runs/1", "equipoise/assess/2"
+    ] = Field(alias="schema")
     estimate: _Found
 
 
@@ -58,8 +63,8 @@ class _Balance(BaseModel):
     steps: list[_Step]
 
 
-_DOCUMENT: TypeAdapter[_Found | _Parts | _Balance] = TypeAdapter(
-    Annotated[_Found | _Parts | _Balance, Field(discriminator="schema_")]
+_DOCUMENT: TypeAdapter[_Found | _Holding | _Balance] = TypeAdapter(
+    Annotated[_Found | _Holding | _Balance, Field(discriminator="schema_")]
 )
 
 
@@ -93,7 +98,7 @@ def _document_of(path: Path) -> Path:
     return there[0]
 
 
-def _read(file: Path) -> _Found | _Parts | _Balance:
+def _read(file: Path) -> _Found | _Holding | _Balance:
     try:
         return _DOCUMENT.validate_json(read_bytes(file, WANTED))
     except ValidationError as error:
@@ -102,10 +107,10 @@ def _read(file: Path) -> _Found | _Parts | _Balance:
         raise InputError(where, first["msg"], WANTED) from error
 
 
-def _estimate_in(document: _Found | _Parts | _Balance, where: str) -> _Found:
+def _estimate_in(document: _Found | _Holding | _Balance, where: str) -> _Found:
     if isinstance(document, _Found):
         return document
-    if isinstance(document, _Parts):
+    if isinstance(document, _Holding):
         return document.estimate
     found = [step.estimate for step in document.steps if step.estimate is not None]
     if not found:
