@@ -9,280 +9,328 @@ class EstimateReason(Code):
     # Of fits of the trajectory
     EXPLAINED_ATTITUDE = (
         "explained_attitude",
-        "The model explains the record to {attitude_rms:deg .3g} deg rms per axis.",
+        "The model explains the record: residuals are {attitude_rms:deg .3g} deg rms per axis.",
     )
     EXPLAINED_RATE = (
         "explained_rate",
-        "The model explains the record to {rate_rms:deg .3g} deg/s rms per axis.",
+        "The model explains the record: residuals are {rate_rms:deg .3g} deg/s rms per axis.",
     )
     UNEXPLAINED_ATTITUDE = (
         "unexplained_attitude",
-        "The model does not explain the record: it leaves {attitude_rms:deg .3g} deg rms per "
-        "axis, {times:.2g} times the stated noise, with a lag-one correlation of {lag_one:.2f} "
-        "where noise has 0. Something moves the platform that the model does not know; do not "
-        "trust the intervals.",
+        "The model does not explain the record. Residuals are {attitude_rms:deg .3g} "
+        "deg rms per axis, {times:.2g} times the stated noise, with a lag-one "
+        "autocorrelation of {lag_one:.2f} (white noise: 0). Unmodelled torques act on "
+        "the platform; do not trust the intervals.",
     )
     UNEXPLAINED_RATE = (
         "unexplained_rate",
-        "The model does not explain the record: it leaves {rate_rms:deg .3g} deg/s rms per axis, "
-        "{times:.2g} times the stated noise, with a lag-one correlation of {lag_one:.2f} where "
-        "noise has 0. Something moves the platform that the model does not know; do not trust "
-        "the intervals.",
+        "The model does not explain the record. Residuals are {rate_rms:deg .3g} deg/s "
+        "rms per axis, {times:.2g} times the stated noise, with a lag-one "
+        "autocorrelation of {lag_one:.2f} (white noise: 0). Unmodelled torques act on "
+        "the platform; do not trust the intervals.",
     )
     COLOURED_RESIDUAL = (
         "coloured_residual",
-        "What is left is not quite noise (lag-one correlation {lag_one:.2f}, spectral peak "
-        "{spectral_peak:.2g} times the mean): intervals are widened {widening:.2g} times.",
+        "Residuals are not white (lag-one autocorrelation {lag_one:.2f}, spectral peak "
+        "{spectral_peak:.2g} times the mean): intervals are widened by a factor of "
+        "{widening:.2g}.",
     )
-    NOT_CONVERGED = "not_converged", "The fit did not settle; its numbers mean nothing."
+    NOT_CONVERGED = (
+        "not_converged",
+        "The fit did not converge; its numbers are meaningless.",
+    )
     MOTION_NOT_FOUND = (
         "motion_not_found",
-        "The fit did not find the motion: it leaves {attitude_rms:deg .2g} deg rms per axis, and "
-        "its numbers mean nothing. Try a shorter part of the record, or hold what is known of the "
-        "body.",
+        "The fit did not find the motion: residuals are {attitude_rms:deg .2g} deg rms "
+        "per axis, and its numbers are meaningless. Use a shorter part of the record, "
+        "or hold known mass properties (--hold).",
     )
     BUDGET_SPENT = (
         "budget_spent",
-        "The time for the search was spent before it was done with {names}: an error that was not "
-        "sought may hide in the numbers, do not trust the intervals. Give it more (--budget-s "
-        "300), or a shorter part of the record.",
+        "The search time ended before {names} was complete, so an undetected error may "
+        "remain: do not trust the intervals. Allow more time (--budget-s 300), or use a "
+        "shorter part of the record.",
     )
     BUDGET_TOO_SMALL = (
         "budget_too_small",
-        "The time for the search was spent before it was done with {names}, and what is left is "
-        "more than noise: do not trust the numbers. Give it more (--budget-s 300), or a shorter "
+        "The search time ended before {names} was complete, and residuals exceed noise: "
+        "do not trust the numbers. Allow more time (--budget-s 300), or use a shorter "
         "part of the record.",
     )
     RATIOS_ONLY = (
         "ratios_only",
-        "The scale is open: only ratios of inertia and centre of mass are known.",
+        "The scale is open: the record determines only ratios of inertia and centre of mass.",
     )
     PART_UNOBSERVABLE = (
         "part_unobservable",
-        "Part of the mass properties is not observable; those intervals are infinite.",
+        "Some mass properties are unobservable; their intervals are infinite.",
     )
     FLAT_BODY = (
         "flat_body",
-        "The best body is flat: its inertia lies at the edge of the possible, its greatest "
-        "principal moment {gap:% .1g} % below the sum of the other two. Intervals know of no edge.",
+        "The best estimate is a flat body, at the limit of physical consistency: its "
+        "greatest principal moment is {gap:% .1g} % below the sum of the other two. "
+        "Intervals do not account for this limit.",
     )
 
     # Of the model that a record supports
-    EVENTS_FOUND = "events_found", "It steps over {count:.0f} events, at {names} s."
+    EVENTS_FOUND = (
+        "events_found",
+        "The model includes {count:.0f} events, at {names} s.",
+    )
     EVENTS_AT_TRAVELS = (
         "events_at_travels",
-        "Masses travel at the time of events ({names} s), so that such a travel gives no scale; "
-        "check the log of the masses.",
+        "Events coincide with moves of masses ({names} s), so these moves do not fix "
+        "the scale; check the log of the masses.",
     )
-    TOO_MANY_EVENTS = "too_many_events", "So many events leave nothing to trust the numbers by."
+    TOO_MANY_EVENTS = (
+        "too_many_events",
+        "With so many events the numbers cannot be trusted.",
+    )
     ATTITUDE_NOISE_OFF = (
         "attitude_noise_off",
-        "The attitude noise is {found:deg .2g} deg a row, not {stated:deg .2g} as stated.",
+        "The attitude noise is {found:deg .2g} deg per sample; stated are {stated:deg .2g}.",
     )
     GYRO_NOISE_OFF = (
         "gyro_noise_off",
-        "The gyro noise is {found:deg .2g} deg/s a row, not {stated:deg .2g} as stated.",
+        "The gyro noise is {found:deg .2g} deg/s per sample; stated are {stated:deg .2g}.",
     )
-    TERMS_ADDED = "terms_added", "Terms that the record supports were added: {names}."
-    TERMS_CARRIED = "terms_carried", "Intervals count errors of sensors that may be zero: {names}."
-    RIVAL_MODELS = "rival_models", "Intervals count other models of the record, about as likely."
+    TERMS_ADDED = (
+        "terms_added",
+        "Terms that the record supports were added: {names}.",
+    )
+    TERMS_CARRIED = (
+        "terms_carried",
+        "Intervals account for sensor errors that may be zero: {names}.",
+    )
+    RIVAL_MODELS = (
+        "rival_models",
+        "Intervals account for alternative models of similar likelihood.",
+    )
     TERMS_TO_DECLARE = (
         "terms_to_declare",
-        "Declare under [disturbance] consider in the testbed file: {names}; then shorter records "
-        "count that, too, also when balancing and holding.",
+        "Declare {names} under [disturbance] consider in the testbed file. Shorter "
+        "records, balancing and holding then account for it too.",
     )
     CAMERA_LEANS = (
         "camera_leans",
-        "The camera's vertical leans {lean:deg .2g} deg from gravity's; that is corrected.",
+        "The camera's vertical is inclined by {lean:deg .2g} deg to gravity; this is corrected.",
     )
     GYRO_CLOCK = (
         "gyro_clock",
-        "The gyro's clock is {fast:% .2g} % fast beside the camera's (slow, if negative); that is "
-        "corrected.",
+        "The gyro's clock is {fast:% .2g} % fast relative to the camera's (slow if "
+        "negative); this is corrected.",
     )
     LAMP_RESPONSE = (
         "lamp_response",
-        "The lamp warms the platform with a time constant of {found:.3g} s, not {stated:.3g} s as "
-        "stated; that is corrected.",
+        "The lamp heats the platform with a time constant of {found:.3g} s; stated are "
+        "{stated:.3g} s. This is corrected.",
     )
     LATE_LOG = (
         "late_log",
-        "Masses travelled {late:ms .0f} ms behind their log (before it, if negative); that is "
-        "corrected.",
+        "Masses moved {late:ms .0f} ms after their log (before it if negative); this is corrected.",
     )
     SENSOR_IMPLAUSIBLE = (
         "sensor_implausible",
-        "But errors of sensors are larger than real ones are ({names}): they may stand for another "
-        "error, such as axes or an attitude read the other way; do not trust the intervals.",
+        "But the estimated sensor errors are implausibly large ({names}). They may "
+        "stand for another error, such as misread axes or attitude direction; do not "
+        "trust the intervals.",
     )
     TORQUE_WANDERS = (
         "torque_wanders",
-        "A torque that no term explains wanders by {torque_x:uN m .2g}, {torque_y:uN m .2g}, "
-        "{torque_z:uN m .2g} uN m about x, y, z within {seconds:.2g} s; intervals count it.",
+        "An unexplained torque varies by {torque_x:uN m .2g}, {torque_y:uN m .2g}, "
+        "{torque_z:uN m .2g} uN m about x, y, z within {seconds:.2g} s; intervals "
+        "account for it.",
     )
     LAY_ON_STOP = (
         "lay_on_stop",
-        "But the platform stays at its tilt limit from {start:.4g} to {end:.4g} s, as no swing "
-        "does, and no model has the pressure of a stop: do not trust the numbers. Identify a part "
-        "without such a stay, the longest from {first:.4g} to {last:.4g} s (--from-s, --to-s).",
+        "But the platform stays at its tilt limit from {start:.4g} to {end:.4g} s, and "
+        "no model includes the contact force of the stop: do not trust the numbers. Use "
+        "a part without such a stay, the longest from {first:.4g} to {last:.4g} s "
+        "(--from-s, --to-s).",
     )
     UNKNOWN_TORQUE = (
         "unknown_torque",
-        "That torque is {share:.2g} times what gravity does: something drives the platform that "
-        "the model does not know, do not trust the numbers.",
+        "That torque is {share:.2g} times the gravity torque: an unmodelled torque "
+        "drives the platform; do not trust the numbers.",
     )
-    INPUT_LIMITS = "input_limits", "How well the input '{0}' is known limits {rest}."
-    OUTLIERS_REMOVED = "outliers_removed", "{rows:.0f} outlying rows are left out."
+    INPUT_LIMITS = (
+        "input_limits",
+        "The uncertainty of the input '{0}' limits {rest}.",
+    )
+    OUTLIERS_REMOVED = (
+        "outliers_removed",
+        "{rows:.0f} outliers were removed.",
+    )
     RATES_UNRESOLVED = (
         "rates_unresolved",
-        "{rows:.0f} gyro rows are left out: masses travelled between the rows of their track.",
+        "{rows:.0f} gyro rows were excluded: masses moved between the samples of their position.",
     )
 
     # Of several recordings of one platform
     FITTED_JOINTLY = (
         "fitted_jointly",
-        "{count:.0f} runs are fitted jointly: inertia and centre of mass are common to all; "
-        "starts, biases and moves are each run's own.",
+        "{count:.0f} runs are fitted jointly: inertia and centre of mass are common; "
+        "starts, biases and moves are individual.",
     )
     RUNS_SCATTERED = (
         "runs_scattered",
-        "The runs scatter more than their intervals allow: intervals are widened {widening:.2g} "
-        "times.",
+        "The runs scatter more than their intervals allow: intervals are widened by a "
+        "factor of {widening:.2g}.",
     )
     RUNS_DISAGREE = (
         "runs_disagree",
-        "The runs disagree, by {widening:.2g} times what their intervals allow: the platform or "
-        "the bench was not the same in all of them. There is no joint estimate; their means and "
-        "scatter stand by themselves.",
+        "The runs disagree: they scatter {widening:.2g} times as much as their "
+        "intervals allow. The platform or the bench changed between them. There is no "
+        "joint estimate; see the individual means and their scatter.",
     )
-    RUNS_LEFT_OUT = "runs_left_out", "Left out, as not usable by themselves: {names}."
+    RUNS_LEFT_OUT = (
+        "runs_left_out",
+        "Excluded, because not usable individually: {names}.",
+    )
     TOO_FEW_RUNS = (
         "too_few_runs",
-        "{usable:.0f} of {count:.0f} runs can be used by itself; a joint fit needs two.",
+        "Only {usable:.0f} of {count:.0f} runs are usable individually; a joint fit needs two.",
     )
     CROSS_CHECKS_DISAGREE = (
         "cross_checks_disagree",
-        "But cross-checks at the same inertia disagree by up to {off:.0f} sd ({names}): one of "
-        "them is wrong, do not trust the numbers.",
+        "But cross-checks at the same inertia disagree by up to {off:.0f} sd ({names}): "
+        "one of them is wrong; do not trust the numbers.",
     )
 
     # Of a centre of mass that drifts
     DRIFTS = (
         "drifts",
-        "The centre of mass drifts: from start to end it moves by {way_x:um .2g}, {way_y:um "
-        ".2g}, {way_z:um .2g} um (sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um .2g}). com is that "
-        "of the start, com_end that of the end.",
+        "The centre of mass drifts by {way_x:um .2g}, {way_y:um .2g}, {way_z:um .2g} um "
+        "over the record (sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um .2g}). com is its "
+        "value at the start, com_end at the end.",
     )
     NO_DRIFT = (
         "no_drift",
-        "No drift of the centre of mass is observed: from start to end it moves by {way_x:um "
-        ".2g}, {way_y:um .2g}, {way_z:um .2g} um (sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um "
+        "No significant drift of the centre of mass: {way_x:um .2g}, {way_y:um .2g}, "
+        "{way_z:um .2g} um over the record (sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um "
         ".2g}).",
     )
     DRIFT_UNOBSERVABLE = (
         "drift_unobservable",
-        "Not all of the centre of mass is observable, nor how much it drifts.",
+        "The centre of mass and its drift are only partly observable.",
     )
 
     # Of linear methods
-    LINEAR = "linear", "A linear estimate."
-    LINEAR_RATIOS = "linear_ratios", "The scale is open: only ratios are known."
+    LINEAR = (
+        "linear",
+        "A linear estimate.",
+    )
+    LINEAR_RATIOS = (
+        "linear_ratios",
+        "The scale is open: only ratios are determined.",
+    )
     LONGEST_PIECE_ONLY = (
         "longest_piece_only",
-        "Note: behind a gap a gyro alone does not know the attitude: only the longest piece is "
-        "used.",
+        "Note: with a gyro alone the attitude is unknown after a gap; only the longest "
+        "continuous part is used.",
     )
-    IMPOSSIBLE_INERTIA = "impossible_inertia", "No body can have the inertia found."
+    IMPOSSIBLE_INERTIA = (
+        "impossible_inertia",
+        "The estimated inertia is physically inconsistent: no body can have it.",
+    )
     REGRESSOR_NOISE_TOO_LARGE = (
         "regressor_noise_too_large",
-        "Noise in the regressor takes some {share:% .0f} % of a moment of inertia away: do not "
-        "trust the intervals.",
+        "Noise in the regressor reduces a moment of inertia by about {share:% .0f} %: "
+        "do not trust the intervals.",
     )
     RESIDUAL_TOO_LARGE = (
         "residual_too_large",
-        "The rows leave much more than the sensors' noise: something moves the platform that the "
-        "model does not know; do not trust the intervals.",
+        "Residual power is much larger than sensor noise: unmodelled torques act on the "
+        "platform; do not trust the intervals.",
     )
     RESIDUAL_LARGE = (
         "residual_large",
-        "The rows leave more than the sensors' noise, {power:.2g} times its power where it is "
-        "most: intervals are widened {widening:.2g} times.",
+        "Residual power exceeds sensor noise by up to {power:.2g}x: intervals are "
+        "widened by a factor of {widening:.2g}.",
     )
     BIAS_BY_NOISE = (
         "bias_by_noise",
-        "Noise in the regressor moves {0} by about {sds:.2g} sd: the intervals are widened by "
-        "it, but are not trustworthy; use momentum_corrected, or trajectory.",
+        "Noise in the regressor biases {0} by about {sds:.2g} sd. Intervals are widened "
+        "accordingly, but are not trustworthy; use momentum_corrected or trajectory.",
     )
     BIAS_BY_SMOOTHING = (
         "bias_by_smoothing",
-        "Smoothing the camera's rows blurs quick motion and moves {0} by about {sds:.2g} sd: the "
-        "intervals are widened by it, but are not trustworthy; a gyro would show it.",
+        "Smoothing of the camera data attenuates fast motion and biases {0} by about "
+        "{sds:.2g} sd. Intervals are widened accordingly, but are not trustworthy; use "
+        "a gyro.",
     )
     BIAS_BY_MODEL = (
         "bias_by_model",
-        "What the model leaves out moves {0} by about {sds:.2g} sd: the intervals are widened by "
-        "it, but are not trustworthy.",
+        "Neglected terms bias {0} by about {sds:.2g} sd. Intervals are widened "
+        "accordingly, but are not trustworthy.",
     )
 
     # Of filters and the tracker
     FILTERED = (
         "filtered",
-        "Filtered to the last row; innovations are {innovation:.2g} times what they should be.",
+        "Filtered to the last row; innovations are {innovation:.2g} times their predicted size.",
     )
     FILTER_INNOVATIONS_TOO_LARGE = (
         "filter_innovations_too_large",
-        "Filtered to the last row; innovations are {innovation:.2g} times what they should be: "
-        "inertia, noise or model are wrong, do not trust it.",
+        "Filtered to the last row; innovations are {innovation:.2g} times their "
+        "predicted size: inertia, noise or model are wrong; do not trust the estimate.",
     )
-    FILTER_DIVERGED = "filter_diverged", "No body can have the inertia found: the filter diverged."
+    FILTER_DIVERGED = (
+        "filter_diverged",
+        "The filter diverged: no body can have the estimated inertia.",
+    )
     GYROSCOPIC_TORQUE_LEFT_OUT = (
         "gyroscopic_torque_left_out",
-        "The gyroscopic torque and products of inertia that the simplified model leaves out move "
-        "com by some {com:um .2g} um (|w|^2 dJ / m g: {rule:um .2g} um), more than all else. The "
-        "interval is as wide as that: a bound, not trustworthy as one of 95 %. Take another "
-        "filter.",
+        "The simplified model neglects the gyroscopic torque and products of inertia, "
+        "which biases com by about {com:um .2g} um (|w|^2 dJ / m g: {rule:um .2g} um), "
+        "more than all other errors. The interval is that bound, not a 95 % interval. "
+        "Use another filter.",
     )
     TRACKED = (
         "tracked",
-        "Tracked to the last row; innovations are {innovation:.2g} times what they should be.",
+        "Tracked to the last row; innovations are {innovation:.2g} times their predicted size.",
     )
     TRACKER_INNOVATIONS_TOO_LARGE = (
         "tracker_innovations_too_large",
-        "Tracked to the last row; innovations are {innovation:.2g} times what they should be: "
-        "inertia, noise or model are wrong, do not trust the interval.",
+        "Tracked to the last row; innovations are {innovation:.2g} times their "
+        "predicted size: inertia, noise or model are wrong; do not trust the interval.",
     )
-    ROWS_REJECTED = "rows_rejected", "{rows:.0f} outlying rows were not used."
+    ROWS_REJECTED = (
+        "rows_rejected",
+        "{rows:.0f} outliers were rejected.",
+    )
     TOO_MANY_ROWS_REJECTED = (
         "too_many_rows_rejected",
-        "{rows:.0f} outlying rows were not used: inertia, noise or model are wrong, do not "
+        "{rows:.0f} outliers were rejected: inertia, noise or model are wrong; do not "
         "trust the interval.",
     )
 
     # Of rest positions
     FROM_RESTS = (
         "from_rests",
-        "The centre of mass from {rests:.0f} rest positions; the inertia is not estimated.",
+        "The centre of mass follows from {rests:.0f} equilibrium positions; the inertia "
+        "is not estimated.",
     )
     SWINGS_AT_REST = (
         "swings_at_rest",
-        "But the platform swung by {swing:deg .2g} deg rms at a stop, where it should rest: the "
-        "intervals are not trustworthy.",
+        "But the platform swung by {swing:deg .2g} deg rms at an equilibrium where it "
+        "should rest: the intervals are not trustworthy.",
     )
     RESTS_DISAGREE = (
         "rests_disagree",
-        "But the rests do not agree with one another: the intervals are not trustworthy.",
+        "But the equilibrium positions are inconsistent: the intervals are not trustworthy.",
     )
     TOO_FEW_RESTS = (
         "too_few_rests",
-        "{rests:.0f} distinct rest positions found, two are needed: move a mass sideways and let "
-        "the platform settle.",
+        "{rests:.0f} distinct equilibrium positions found, two are needed: move a mass "
+        "sideways and let the platform settle.",
     )
     RESTS_TOO_ROUGH = (
         "rests_too_rough",
-        "The platform swung by {swing:deg .2g} deg rms at a stop, which shows where it would "
-        "rest to {sd:deg .2g} deg only: too roughly to show the distance of the centre of mass "
-        "from the centre of rotation. Let it settle after each move, or take a method that needs "
-        "no rest.",
+        "The platform swung by {swing:deg .2g} deg rms at an equilibrium, which is "
+        "therefore known to {sd:deg .2g} deg only: not enough to determine the distance "
+        "of the centre of mass from P. Let it settle after each move, or use a method "
+        "that needs no rest.",
     )
 
     # Of a calibration
@@ -292,11 +340,14 @@ class EstimateReason(Code):
     )
     NO_MASS_MOVES = (
         "no_mass_moves",
-        "No mass moves in this record: there is nothing to calibrate masses by.",
+        "No mass moves in this record: there is nothing to calibrate masses with.",
     )
 
     # Of a method that cannot begin
-    TOO_FEW_ROWS = "too_few_rows", "Only {rows:.0f} rows: nothing can be estimated."
+    TOO_FEW_ROWS = (
+        "too_few_rows",
+        "Only {rows:.0f} rows: nothing can be estimated.",
+    )
     TOO_FEW_ROWS_WITHOUT_GAP = (
         "too_few_rows_without_gap",
         "Only {rows:.0f} rows without a gap: there is nothing to fit.",
@@ -307,17 +358,26 @@ class EstimateReason(Code):
     )
     HARDLY_MOVED = (
         "hardly_moved",
-        "The rows do not determine the unknowns: the platform hardly moved.",
+        "The platform moved too little to determine the unknowns.",
     )
-    NO_CAMERA = "no_camera", "It needs a camera, in the record and in the testbed."
-    NO_ATTITUDE = "no_attitude", "The tracker needs a camera: the record has no attitude."
-    NO_GYRO = "no_gyro", "It needs a gyro, in the record and in the testbed."
+    NO_CAMERA = (
+        "no_camera",
+        "The method needs a camera, in the record and in the testbed.",
+    )
+    NO_ATTITUDE = (
+        "no_attitude",
+        "The tracker needs an attitude sensor: the record has no attitude.",
+    )
+    NO_GYRO = (
+        "no_gyro",
+        "The method needs a gyro, in the record and in the testbed.",
+    )
     NO_KNOWN_INPUT = (
         "no_known_input",
-        "It needs a known torque, stored momentum or move that changes: free motion shows "
-        "inertia and centre of mass by their ratio only.",
+        "The method needs a known torque, stored momentum or move that changes: free "
+        "motion determines only the ratio of inertia and centre of mass.",
     )
     INERTIA_TOO_UNCERTAIN = (
         "inertia_too_uncertain",
-        "The inertia is known too badly: unscented points would have a negative one.",
+        "The inertia is too uncertain: some sigma points would have a negative inertia.",
     )

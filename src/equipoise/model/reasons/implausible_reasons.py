@@ -8,15 +8,16 @@ class ImplausibleReason(Code):
 
     INERTIA_OF_NO_BODY = (
         "inertia_of_no_body",
-        "But {mass:.3g} kg with the inertia found would lie {radius:.2g} m (sd {sd:.1g} m) from "
-        "the pivot (root mean square), where {low:.2g} to {high:.2g} m are possible. Check "
-        "platform.mass_kg, the unit of the time, and what is stated of the masses; do not trust "
-        "the numbers.",
+        "But a platform of {mass:.3g} kg with the estimated inertia would have a radius "
+        "of gyration of {radius:.2g} m (sd {sd:.1g} m), where {low:.2g} to {high:.2g} m "
+        "are possible. Check platform.mass_kg, the unit of the time, and what is stated "
+        "of the masses; do not trust the numbers.",
     )
     SWINGS_WITH_COM_ABOVE = (
         "swings_with_com_above",
-        "But the centre of mass found is above the pivot ({sds:.2g} sd), where a platform falls "
-        "over within some {seconds:.2g} s; from {start:.4g} to {end:.4g} s it swings through level "
-        "{count:.0f} times. Check the attitude's direction, which axis is up in laboratory and "
-        "body, and platform.mass_kg; do not trust the numbers.",
+        "But the estimated centre of mass is above the pivot ({sds:.2g} sd), where a "
+        "platform tips over within about {seconds:.2g} s; from {start:.4g} to {end:.4g} "
+        "s it swings through level {count:.0f} times. Check the attitude's direction, "
+        "the vertical axes of laboratory and body, and platform.mass_kg; do not trust "
+        "the numbers.",
     )

@@ -21,8 +21,9 @@ class LawReason(Code):
     )
     CONE_BEGINS = (
         "cone_begins",
-        "Gravity is led round a cone of {angle:deg .1f} deg, {turn:.0f} s a turn. An offset fades "
-        "in {fades:.0f} s; it should all take {expected:.0f} s.",
+        "Gravity is led around a cone of {angle:deg .1f} deg, {turn:.0f} s per "
+        "revolution. An offset decays in {fades:.0f} s; the expected duration is "
+        "{expected:.0f} s.",
     )
 
     # What it found
@@ -31,24 +32,36 @@ class LawReason(Code):
         "K_u {gain:um .3g} um/rad, T_u {period:.3g} s (calculated {expected_gain:um .3g} and "
         "{expected_period:.3g}).",
     )
-    CYCLE_REJECTED = "cycle_rejected", "No cycle to be trusted, calculated gains."
+    CYCLE_REJECTED = (
+        "cycle_rejected",
+        "No reliable limit cycle; using the calculated gains.",
+    )
     HEIGHT_MISSING = (
         "height_missing",
-        "Swing {rounds:.0f}: {missing:um .2f} um missing along up, about {across:um .2f} um left "
-        "across.",
+        "Swing {rounds:.0f}: {missing:um .2f} um remain in height, about {across:um "
+        ".2f} um horizontally.",
     )
-    ESTIMATE_UNUSABLE = "swing_unusable", "The estimate cannot be used:"  # its reasons follow
+    ESTIMATE_UNUSABLE = (
+        "swing_unusable",
+        "The estimate is not usable:",
+    )  # its reasons follow
 
     # Why it ends
     LEVEL_AT_TARGET = "level_at_target", "Level, and at the target."
-    HEIGHT_NOT_SHOWN = "height_not_shown", "Level; its height was not shown:"  # reasons follow
-    COM_NOT_SHOWN = "com_not_shown", "The centre of mass was not shown:"  # reasons follow
+    HEIGHT_NOT_SHOWN = (
+        "height_not_shown",
+        "Level; its height could not be determined:",
+    )  # reasons follow
+    COM_NOT_SHOWN = (
+        "com_not_shown",
+        "The centre of mass could not be determined:",
+    )  # reasons follow
     AT_PLACE = "at_place", "At its place after {swings:.0f} swings."
     MOVES_MADE = "moves_made", "Made its {moves:.0f} moves."
     AT_PLACE_BY_TURNS = "at_place_by_turns", "At its place after {rounds:.0f} rounds of turns."
     COM_TOO_UNCERTAIN = (
         "com_too_uncertain",
-        "After {swings:.0f} swings r is known to {sd:um .2g} um; {wanted:um .2g} um are wanted.",
+        "After {swings:.0f} swings r is known to {sd:um .2g} um; {wanted:um .2g} um are required.",
     )
     LEVEL_AT_HEIGHT = (
         "level_at_height",
@@ -63,30 +76,34 @@ class LawReason(Code):
     )
     MASSES_AT_REST = (
         "masses_at_rest",
-        "Gravity has gone round the cone {turns:.0f} times. By the way of the masses in the last "
-        "two, {left:um .2f} um are left; an inertia wrong by one sd leaves {height:um .2g} um "
-        "along up.",
+        "Gravity has completed {turns:.0f} revolutions of the cone. From the motion of "
+        "the masses in the last two, {left:um .2f} um remain; an inertia error of one "
+        "sd leaves {height:um .2g} um in height.",
     )
     MASSES_NOT_AT_REST = (
         "masses_not_at_rest",
-        "After {past:.0f} s, much longer than it should take, the masses still move: about "
-        "{left:um .2g} um are left.",
+        "After {past:.0f} s, much longer than expected, the masses still move: about "
+        "{left:um .2g} um remain.",
     )
     TORQUE_NOT_GIVEN = (
         "torque_not_given",
-        "For {past:.0f} s, much longer than it should take, wheels or gyros have not given the "
-        "requested torque: what is left is not known.",
+        "For {past:.0f} s, much longer than expected, wheels or gyros have not "
+        "delivered the requested torque: the remaining offset is unknown.",
     )
     DIRECTION_NOT_SWEPT = (
         "direction_not_swept",
-        "The platform is still. Gravity has swept all directions but ({axis_x:.2f}, {axis_y:.2f}, "
-        "{axis_z:.2f}), for {least:.2g} s of {past:.3g} s: the centre of mass may be anywhere "
-        "along it, and is not balanced. A momentum trajectory must move it.",
+        "The platform is at rest. Gravity has swept all directions but ({axis_x:.2f}, "
+        "{axis_y:.2f}, {axis_z:.2f}), for {least:.2g} s of {past:.3g} s: the centre of "
+        "mass may lie anywhere along it, and is not balanced. A momentum trajectory "
+        "must move it.",
     )
     OFF_TARGET_BY = (
         "off_target_by",
         "The centre of mass is ({off_x:um .3f} +/- {sd_x:um .3f}, {off_y:um .3f} +/- "
-        "{sd_y:um .3f}, {off_z:um .3f} +/- {sd_z:um .3f}) um off what was wanted.",
+        "{sd_y:um .3f}, {off_z:um .3f} +/- {sd_z:um .3f}) um off target.",
     )
     FOLLOWED = "followed", "Masses followed tilt and drift."
-    TILTED = "law_tilted", "Stopped: the platform tilts to its limit."
+    TILTED = (
+        "law_tilted",
+        "Stopped: the platform reaches its tilt limit.",
+    )

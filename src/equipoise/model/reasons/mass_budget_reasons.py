@@ -12,10 +12,12 @@ class MassBudgetReason(Code):
     )
     SWINGS_COMBINED = (
         "swings_combined",
-        "Swings about known axes ({count:.0f}) agree with that; {0} is off most, by {off:.1f} sd.",
+        "Swings about known axes ({count:.0f}) agree with the sum; {0} deviates most, "
+        "by {off:.1f} sd.",
     )
     SWINGS_CONTRADICT = (
         "swings_contradict",
-        "But swings and parts contradict each other (chance {chance:.1g}): {0} is off most, by "
-        "{off:.1f} sd. A part, a period or a lever is wrong; do not trust the intervals.",
+        "But swings and parts contradict each other (probability {chance:.1g}): {0} "
+        "deviates most, by {off:.1f} sd. A part, a period or a lever arm is wrong; do "
+        "not trust the intervals.",
     )

@@ -18,11 +18,11 @@ class MoveReason(Code):
     TO_TARGET = "to_target", f"Move (to target): {LEAVES}"
     BELOW_FIRST = (
         "below_first",
-        f"Move (below the target first: stiffer, and more to learn from): {LEAVES}",
+        f"Move (below the target first: stiffer, and more informative): {LEAVES}",
     )
     BRAKE = (
         "brake",
-        f"Move (brake: the platform falls faster than it can be caught): {LEAVES}",
+        f"Move (brake: the platform tips faster than it can be caught): {LEAVES}",
     )
     DRIFT = (
         "drift",
@@ -51,18 +51,24 @@ class StepReason(Code):
     COM_BY_HAND = "com_by_hand", f"Centre of mass at {PAIRS}."
     COM_ASTRAY = (
         "com_astray",
-        f"Centre of mass at {PAIRS}; that is not where the weights should have left it: check the "
-        "last ones placed.",
+        f"Centre of mass at {PAIRS}; that is not where the weights should have left it: "
+        "check those placed last.",
     )
 
     # Weights that a person places
     WEIGHTS_TO_MOVE = "weights_to_move", "Move {names}."
-    WEIGHTS_TO_TAKE_OFF = "weights_to_take_off", "Take off {names}."
-    WEIGHTS_TO_PUT_ON = "weights_to_put_on", "Put on {names}."
+    WEIGHTS_TO_TAKE_OFF = (
+        "weights_to_take_off",
+        "Remove {names}.",
+    )
+    WEIGHTS_TO_PUT_ON = (
+        "weights_to_put_on",
+        "Add {names}.",
+    )
     PLACING_LEAVES = "placing_leaves", f"That should leave {PAIRS}."
     NOTHING_TO_PLACE = (
         "nothing_to_place",
-        f"Nothing to place: should leave {PAIRS}. Let go once more.",
+        f"Nothing to place: should leave {PAIRS}. Release once more.",
     )
     TARGET_OUT_OF_REACH = (
         "target_out_of_reach",
@@ -70,29 +76,48 @@ class StepReason(Code):
     )
     HANDS_FIRST = (
         "hands_first",
-        "By hand to within ({within_x:um .0f}, {within_y:um .0f}, {within_z:um .0f}) um of the "
-        "target first; the sliding masses can correct as much.",
+        "Weights first, to within ({within_x:um .0f}, {within_y:um .0f}, {within_z:um "
+        ".0f}) um of the target; the sliding masses can correct that much.",
     )
     MASSES_GO_ON = "masses_go_on", "The sliding masses can correct the rest."
     WEIGHTS_LIE = "weights_lie", "{weights:.0f} weights lie on {places:.0f} places."
 
     # Why a procedure ends
     WITHIN_TOLERANCE = "goal_reached", "Within tolerance."
-    ESTIMATE_UNUSABLE = "estimate_cannot_be_used", "The estimate cannot be used."
-    TIME_USED_UP = "time_used_up", "The time is used up."
-    MOVES_USED_UP = "moves_used_up", "The moves are used up."
+    ESTIMATE_UNUSABLE = (
+        "estimate_cannot_be_used",
+        "The estimate is not usable.",
+    )
+    TIME_USED_UP = (
+        "time_used_up",
+        "The time limit is reached.",
+    )
+    MOVES_USED_UP = (
+        "moves_used_up",
+        "All permitted moves were made.",
+    )
     NEAREST = (
         "nearest",
-        "The masses stand where they bring the centre of mass nearest to the target: their travel "
-        "does not reach it.",
+        "The masses are where they bring the centre of mass closest to the target: "
+        "their travel does not reach it.",
     )
-    ROUNDS_USED_UP = "rounds_used_up", "The rounds are used up."
-    TILTED = "tilt_limit_exceeded", "The platform tilts to its limit."
-    NOTHING_REQUIRED = "no_verdict_required", "Nothing is required, so there is no verdict."
+    ROUNDS_USED_UP = (
+        "rounds_used_up",
+        "All permitted rounds were made.",
+    )
+    TILTED = (
+        "tilt_limit_exceeded",
+        "The platform reaches its tilt limit.",
+    )
+    NOTHING_REQUIRED = (
+        "no_verdict_required",
+        "No requirement was stated, so there is no verdict.",
+    )
     LAW_WILL_BE_LATE = (
         "law_will_be_late",
-        "{0} should take {expected:.0f} s on this testbed, and has {available:.0f} s: it will "
-        "probably be cut off before the platform is balanced. More time (--max-time-s), stronger "
-        "devices, a firmer com_sd or another law would help.",
+        "{0} should take {expected:.0f} s on this testbed, and has {available:.0f} s: "
+        "it will probably be cut off before the platform is balanced. Allow more time "
+        "(--max-time-s), use stronger devices or another law, or state a smaller "
+        "com_sd.",
     )
     LAW_RAN = "law_ran", "{0} for {duration:.0f} s of bench time:"  # why it ended follows

@@ -35,11 +35,11 @@ class VerdictReason(Code):
     OUTSIDE_TOLERANCE = "outside_tolerance", f"Failed: {WHERE}; {{names}} outside the tolerance."
     TOO_UNCERTAIN = (
         "too_uncertain",
-        f"Cannot tell: {WHERE}; {{names}} not known well enough to be sure.",
+        f"Cannot tell: {WHERE}; {{names}} not known precisely enough.",
     )
     RECORD_MISFITS = (
         "record_misfits",
-        "Failed: the record since the last move does not fit what was found before it.",
+        "Failed: the record since the last move contradicts the estimate before it.",
     )
     MOVE_MISSED = (
         "move_missed",
@@ -49,19 +49,26 @@ class VerdictReason(Code):
     HELD = "held", f"Passed: {HOLD}, within tolerance on every axis all the time."
     HOLD_UNDECIDED = (
         "hold_undecided",
-        f"Cannot tell: {HOLD}; {{names}} not known well enough to be sure.",
+        f"Cannot tell: {HOLD}; {{names}} not known precisely enough.",
     )
     RAILS_ENDED = (
         "rails_ended",
-        f"Failed: held for {{duration:min .3g}} min, until the masses came to the end of their "
-        f"rails; {WHERE}. Shift a weight by hand, so that they begin nearer to home.",
+        f"Failed: held for {{duration:min .3g}} min, until the masses reached the ends "
+        f"of their rails; {WHERE}. Add a weight by hand so that they start closer to "
+        "home.",
     )
     NOT_HELD = "not_held", f"Failed: {HOLD}; {{names}} outside the tolerance."
 
     # On a run that was broken off
-    TILTED = "tilted", "Stopped: the platform tilts to its limit."
+    TILTED = (
+        "tilted",
+        "Stopped: the platform reaches its tilt limit.",
+    )
     BENCH_STOPPED = "bench_stopped", "Stopped: {0}."
-    STOPPED_BY_HAND = "stopped_by_hand", "Stopped by hand: {0}."
+    STOPPED_BY_HAND = (
+        "stopped_by_hand",
+        "Stopped by the user: {0}.",
+    )
     STOPPED_BY_SIGNAL = "stopped_by_signal", "Stopped by {0}: {1}."
 
     # On a requirement
@@ -70,26 +77,26 @@ class VerdictReason(Code):
     TORQUE_UNDECIDED = "torque_undecided", f"Cannot tell: {TORQUE}"
     TORQUE_FLOOR_BEYOND_LIMIT = (
         "torque_floor_beyond_limit",
-        f"The floor of this recording is {{floor:uN m plain}} uN m: {UNPASSABLE}",
+        f"The detection limit of this recording is {{floor:uN m plain}} uN m: {UNPASSABLE}",
     )
     TORQUE_TOO_NEAR_LIMIT = (
         "torque_too_near_limit",
-        f"The floor of this recording is {{floor:uN m plain}} uN m: {TOO_NEAR}",
+        f"The detection limit of this recording is {{floor:uN m plain}} uN m: {TOO_NEAR}",
     )
     OFFSET_MET = "offset_met", f"Passed: {OFFSET}"
     OFFSET_EXCEEDED = "offset_exceeded", f"Failed: {OFFSET}"
     OFFSET_UNDECIDED = "offset_undecided", f"Cannot tell: {OFFSET}"
     OFFSET_FLOOR_BEYOND_LIMIT = (
         "offset_floor_beyond_limit",
-        f"The floor of this recording is {{floor:um plain}} um: {UNPASSABLE}",
+        f"The detection limit of this recording is {{floor:um plain}} um: {UNPASSABLE}",
     )
     OFFSET_TOO_NEAR_LIMIT = (
         "offset_too_near_limit",
-        f"The floor of this recording is {{floor:um plain}} um: {TOO_NEAR}",
+        f"The detection limit of this recording is {{floor:um plain}} um: {TOO_NEAR}",
     )
     INERTIA_UNCERTAIN = (
         "inertia_uncertain",
-        "All of it goes with the inertia, which is known to {sd:% .2g} %.",
+        "The result is proportional to the inertia, which is known to {sd:% .2g} %.",
     )
 
     # On whether several runs agree
@@ -102,15 +109,21 @@ class VerdictReason(Code):
         f"Failed: {{count:.0f}} runs scatter {{factor:.2g}} times as much as their intervals allow "
         f"{SCATTER}",
     )
-    RUNS_DEVIATE = "runs_deviate", "Most of it comes from {both}."
+    RUNS_DEVIATE = (
+        "runs_deviate",
+        "{both} contributes most.",
+    )
     RUNS_INCOMPARABLE = (
         "runs_incomparable",
-        "Cannot tell: the {count:.0f} runs show nothing in common.",
+        "Cannot tell: the {count:.0f} runs have no determined parameter in common.",
     )
     RUNS_NOT_FITTED = "runs_not_fitted", "Cannot tell whether runs agree: there is no joint fit."
 
     # On a series of balancings
-    EVERY_RUN_PASSED = "every_run_passed", "Passed: each of {count:.0f} runs did."
+    EVERY_RUN_PASSED = (
+        "every_run_passed",
+        "Passed: all {count:.0f} runs passed.",
+    )
     SOME_RUNS_FAILED = (
         "some_runs_failed",
         "Failed: {failed:.0f} of {count:.0f} runs did not pass, number {names}.",
@@ -119,7 +132,7 @@ class VerdictReason(Code):
     # On a design
     NOTHING_REQUIRED = (
         "nothing_required",
-        "Nothing is required; {expected:uN m plain} uN m are expected.",
+        "No requirement was stated; {expected:uN m plain} uN m are expected.",
     )
     REQUIREMENT_MET = (
         "requirement_met",
@@ -127,8 +140,8 @@ class VerdictReason(Code):
     )
     EXPECTED_NEAR_LIMIT = (
         "expected_near_limit",
-        "Cannot tell: {expected:uN m plain} uN m are expected, and true to {accuracy:% .3g} %; "
-        "{required:uN m plain} uN m are required.",
+        "Cannot tell: {expected:uN m plain} uN m are expected, accurate to {accuracy:% "
+        ".3g} %; {required:uN m plain} uN m are required.",
     )
     OUT_OF_REACH = (
         "out_of_reach",
@@ -137,9 +150,9 @@ class VerdictReason(Code):
     )
     MET_BY_ONE_CHANGE = (
         "met_by_one_change",
-        f"{MISSED} {{expected:uN m plain}} uN m are expected; enough would be: {{choices}}.",
+        f"{MISSED} {{expected:uN m plain}} uN m are expected; sufficient would be: {{choices}}.",
     )
     MET_BY_NO_CHANGE = (
         "met_by_no_change",
-        f"{MISSED} {{expected:uN m plain}} uN m are expected; no single change is enough.",
+        f"{MISSED} {{expected:uN m plain}} uN m are expected; no single change is sufficient.",
     )
