@@ -14,7 +14,7 @@ from equipoise.model.logged_run import Build
 NOTHING = "comments or layout alone"
 NONE = "none"
 COLUMNS = (prose("platform"), Column("build"), Column("first run"), Column("last run"),
-           number("runs"), prose("changed since the one before"))  # fmt: skip
+           number("runs"), prose("changes since the previous one"))  # fmt: skip
 
 
 def letters(book: Logbook) -> Mapping[tuple[str, str], str]:

@@ -32,7 +32,7 @@ TONES: Mapping[Ending, Tone] = {
     Usability.USABLE: "good",
     Usability.NOT_USABLE: "bad",
 }
-MEANING = "com: as judged, masses as they stand; of identify: masses at home"
+MEANING = "com: as judged, masses in their present positions; identify: masses at home"
 TO_MINUTE = 16  # characters of a time, to the minute
 
 
@@ -115,7 +115,9 @@ def compared(book: Logbook, runs: Sequence[LoggedRun]) -> Table:
         reported = [f"{_short(p)} ({_separation(p, first)})" for p in others]
         lines.append([name, unit.name, _short(first), *reported])
     remarks = [f"{k}: {r.name}, {r.platform}, {r.method}" for k, r in enumerate(runs, 1)]
-    return table("Masses at home; in brackets: from the first, in sd", columns, lines, remarks)
+    return table(
+        "Masses at home; in brackets: difference from the first, in sd", columns, lines, remarks
+    )
 
 
 def _by_name(book: Logbook, run: LoggedRun) -> dict[str, Parameter]:

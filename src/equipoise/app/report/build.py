@@ -72,7 +72,7 @@ def estimate_sections(estimate: Estimate | None, *more: Block) -> tuple[Section,
         *more,
     )
     unobserved = unobservable_items(estimate) or (Paragraph(ALL_OBSERVED),)
-    return Section("Mass properties", found), Section("What the data cannot see", unobserved)
+    return Section("Mass properties", found), Section("What the data cannot show", unobserved)
 
 
 def figure_of(picture: Picture) -> Figure:

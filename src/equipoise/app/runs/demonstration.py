@@ -74,7 +74,7 @@ def run_demo(testbed: Testbed, seed: int, show_step: Callable[[Step], None]) -> 
     estimate = steps[-1].estimate
     assert estimate is not None
     show(estimate_tables(estimate)[:1], below=True)
-    show((Heading("2  Balance: the same platform, set level and let go again"),), below=True)
+    show((Heading("2  Balance: the same platform, levelled and released again"),), below=True)
     done = run(SimulatedBench(testbed, seed), GOAL, Limits(), show_step, at_terminal(testbed))
     return Demonstration(recording, truth, steps, replace(done, before=at_home(estimate)))
 

@@ -42,10 +42,10 @@ def groups(estimate: Estimate) -> Iterator[tuple[str, list[Parameter]]]:
         return [p for p in estimate.parameters if p.name.startswith(stems)]
 
     yield "Centre of mass and inertia about P, masses at home", of(*COM, "inertia_P_")
-    yield "Centre of mass, masses as they stand at the end", of("com_end_")
+    yield "Centre of mass, masses as positioned at the end", of("com_end_")
     shown = of("com_", "inertia_P_")
     yield "Also estimated", [p for p in estimate.parameters if p not in shown]
-    yield "Ratios, which do not need the scale", list(estimate.ratios)
+    yield "Ratios (independent of the scale)", list(estimate.ratios)
 
 
 def estimate_tables(estimate: Estimate) -> tuple[Table, ...]:
@@ -72,16 +72,16 @@ def residual_line(residual: Residual | None) -> str:
     attitude = residual.attitude_rms is not None
     unit = "deg" if attitude else "deg/s"
     fitted = residual.attitude_rms if attitude else residual.rate_rms
-    text = f"Residual: {_rms(fitted)} {unit} rms per axis fitted"
+    text = f"Residuals: {_rms(fitted)} {unit} rms per axis"
     if residual.held_out_rms is not None and residual.held_out_span is not None:
         start, end = residual.held_out_span
         text += (
-            f"; {_rms(residual.held_out_rms)} {unit} predicted for {start:.4g} to {end:.4g} s "
-            "by a fit that was not shown them"
+            f"; {_rms(residual.held_out_rms)} {unit} predicted for {start:.4g} to "
+            f"{end:.4g} s by a fit without these data"
         )
     if residual.steady_rms is not None and fitted is not None and residual.steady_rms > fitted:
-        text += f"; {_rms(residual.steady_rms)} {unit} without the torque that wanders"
-    return f"{text}. Lag-one correlation {fixed(residual.lag_one, 2)}; {_white(residual)}."
+        text += f"; {_rms(residual.steady_rms)} {unit} without process noise"
+    return f"{text}. Lag-one autocorrelation {fixed(residual.lag_one, 2)}; {_white(residual)}."
 
 
 def noise_floor_line(verdict: Verdict) -> str:
@@ -90,19 +90,18 @@ def noise_floor_line(verdict: Verdict) -> str:
         return ""
     reported = (f"{axis} {significant(um, 2)} um" if math.isfinite(um) else f"{axis} unobservable"
             for axis, um in zip("xyz", verdict.noise_floor / UM, strict=True))  # fmt: skip
-    return (
-        f"Noise floor of this record (95 %): {', '.join(reported)}. "
-        "A smaller offset cannot be distinguished from zero."
-    )
+    return f"Detection limit (95 %): {', '.join(reported)}."
 
 
 def _linear_line(residual: Residual) -> str:
     """Return what the rows of a linear method leave, with Lee's error indices."""
-    text = f"Error index {residual.error_index:.3g}: share of the rows' known side that is left"
+    text = f"Error index {residual.error_index:.3g}: relative residual of the rows"
     if residual.error_indices:
         name, worst = max(residual.error_indices.items(), key=lambda item: item[1])
         text += f"; parameter error index of {name} {worst:.2g}, the greatest"
-    return f"{text}. They take rows for independent and columns for exact: they are no intervals."
+    return (
+        f"{text}. These indices assume independent rows and exact columns; they are no intervals."
+    )
 
 
 def _white(residual: Residual) -> str:

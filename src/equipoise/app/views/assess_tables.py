@@ -28,22 +28,23 @@ def range_table(done: Assessment) -> Table:
     """Return what counts: torque within the range, distance from the target."""
     torque, tilt = done.torque, np.degrees(done.torque.tilt)
     lines = [
-        [f"torque within {tilt:g} deg, rms", *bounds(torque.rms, UN_M), "uN m"],
+        [f"gravity torque within {tilt:g} deg, rms", *bounds(torque.rms, UN_M), "uN m"],
         [
-            f"torque within {tilt:g} deg, greatest",
+            f"gravity torque within {tilt:g} deg, maximum",
             significant(torque.worst / UN_M),
             f"up to {significant(torque.worst_high / UN_M)}",
             "",
             "uN m",
         ],
-        ["centre of mass from its target", *bounds(done.offset, UM), "um"],
+        ["distance of the centre of mass from its target", *bounds(done.offset, UM), "um"],
     ]
     remark = (
-        f"The inertia is known to {done.inertia_sd / PERCENT:.2g} %, and all of this goes with it. "
-        "Floor: what a perfect platform could be proven to in this recording."
+        f"The inertia is known to {done.inertia_sd / PERCENT:.2g} %, and all values "
+        "are proportional to it. Detection limit: the bound that a perfect platform "
+        "would get in this recording."
     )
     columns = (Column(), *map(number, ("found", "95 % bounds", "floor")), Column("unit"))
-    return table("What gravity does to the platform as it stands", columns, lines, (remark,))
+    return table("Residual gravity torque of the platform", columns, lines, (remark,))
 
 
 def bounds(found: Bounded, unit: float) -> tuple[str, str, str]:
@@ -56,14 +57,16 @@ def measurements_table(done: Assessment) -> Table:
     """Return the centre of mass by the fit and by simpler methods."""
     lines = [fit_row(done), *(check_row(done, check) for check in done.checks)]
     notes = (
-        "All at the inertia that the fit found. The fit's sd counts that of the inertia; the "
-        "others' do not, as all share it. Off: from the fit at that inertia, in sd of the "
-        "difference.",
-        f"The others use {done.metrics.duration:.3g} s of swing since the masses stopped.",
+        (
+            "All methods use the inertia of the fit. The fit's sd includes that of the "
+            "inertia; the others' do not, because it is common to all. Difference: from "
+            "the fit at that inertia, in sd of the difference."
+        ),
+        (f"The other methods use {done.metrics.duration:.3g} s of swing after the masses stopped."),
     )
     columns = (Column(), number("com x", "um"), number("y"), number("z"),
                number("distance from P", "um"), number("off"), Column("counts"))  # fmt: skip
-    title = "Centre of mass, as the masses stand, by several methods"
+    title = "Cross-checks: centre of mass with the masses in their present positions"
     return table(title, columns, lines, notes)
 
 
@@ -138,7 +141,7 @@ def torque_table(done: Assessment) -> Table:
                           significant(observed.noise / UN_M, 2), unit])  # fmt: skip
     columns = (Column(), *map(number, ("rms, noise taken off", "greatest", "noise")),
                Column("unit"))  # fmt: skip
-    title = "Along the record: all torques together, and energy"
+    title = "Disturbance torques along the record, and energy"
     return table(title, columns, lines, torque_notes(done))
 
 
@@ -168,16 +171,16 @@ def change_table(before: Assessment, after: Assessment) -> Table:
     ]  # fmt: skip
     columns = (Column(), number("before (95 %)"), number("after (95 %)"), Column("unit"), Column())
     outcome = before.estimate.outcome
-    notes = (f"Of the one before: {outcome.sentence}",) if outcome.warns else ()
+    notes = (f"Before balancing: {outcome.sentence}",) if outcome.warns else ()
     return table("Before and after", columns, lines, notes)
 
 
 def hours_table(hours: OverHours) -> Table:
     """Return drift, walk and Allan deviation of measurements along a recording."""
-    title, wander = f"The centre of mass over time, by {len(hours.t)} measurements", hours.wander
-    left_out = f"{hours.left_out} measurements could not be used."
+    title, wander = f"Centre of mass over time, {len(hours.t)} windows", hours.wander
+    left_out = f"{hours.left_out} windows were not usable."
     if wander is None:
-        few = f"{len(hours.t)} are too few: drift and Allan deviation need {FEWEST}."
+        few = f"{len(hours.t)} windows are too few: drift and Allan deviation need {FEWEST}."
         return table(title, (), (), (few, left_out) if hours.left_out else (few,))
     per_minute, root = UM / MINUTE, UM / MINUTE**0.5
     lines = [
@@ -191,7 +194,7 @@ def hours_table(hours: OverHours) -> Table:
         texts = (f"{d / UM:.2g} ({a / UM:.2g})" for d, a in zip(deviation, alone, strict=True))
         name, spread = f"Allan deviation, {span:.4g} s", f"{error / PERCENT:.0f} %"
         lines.append([name, *texts, "um", spread])
-    remarks = ["In brackets: what the errors of the measurements alone would leave."]
+    remarks = ["In brackets: the part caused by estimation errors alone."]
     remarks += [left_out] if hours.left_out else []
     columns = (Column(), *map(number, "xyz"), Column("unit"), number("relative sd"))
     return table(title, columns, lines, remarks)
@@ -201,7 +204,9 @@ def fall(before: Bounded, after: Bounded) -> str:
     """Say by how much a value fell or rose, as far as both bounds show it."""
     if after.high < before.low:
         least, most = before.low / after.high, before.high / max(after.low, 1e-300)
-        return f"fell {least:.3g} times at least" + (f", {most:.3g} at most" if after.low else "")
+        return f"reduced by a factor of at least {least:.3g}" + (
+            f", {most:.3g} at most" if after.low else ""
+        )
     if after.low > before.high:
-        return f"rose {after.low / before.high:.3g} times at least"
-    return "no change that the recordings show"
+        return f"increased by a factor of at least {after.low / before.high:.3g}"
+    return "no significant change"

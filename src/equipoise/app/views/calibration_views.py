@@ -25,9 +25,10 @@ DRIVES = (
 RAILS = tuple((number(letter), "axis_{}_" + letter, 1.0) for letter in "xyz")
 SENSORS = ("gyro_", "plumb_")
 STAYS = (
-    "How sensors stand is not written to a testbed file, which has no keys for it: identify finds "
-    "the camera's lean again in each record, and the gyro's axes with --term gyro_scale --term "
-    "gyro_cross. What balances with that gyro does not know: turn its axes in its own settings."
+    "Sensor alignment is not written to a testbed file, which has no keys for it. "
+    "identify estimates the camera's inclination in each record, and the gyro's axes "
+    "with --term gyro_scale --term gyro_cross. For balancing with that gyro, correct "
+    "its axes in its own settings."
 )
 
 
@@ -61,7 +62,7 @@ def tables_of(found: Estimate, names: Sequence[str]) -> Iterator[Table]:
     body = [p for p in found.parameters if p.name in (*COM, *INERTIA)]
     for title, group in (
         ("Gains over their mean", found.ratios),
-        ("Gyro's axes from the camera's body axes, and the camera's vertical", sensors),
+        ("Gyro axes relative to the camera's body axes, and the camera's vertical", sensors),
         ("Centre of mass and inertia about P, masses at home", body),
     ):
         if group:
@@ -98,7 +99,7 @@ def sentences_of(done: Calibrated) -> Blocks:
     """Return what was not shown, and how well the model explains the rows."""
     found, moved = done.estimate, done.moved
     still = [m.name for m in done.testbed.masses if m.name not in moved]
-    unmoved = f"Never moved, so not shown: {', '.join(still)}." if still and moved else ""
+    unmoved = f"Never moved, hence not calibrated: {', '.join(still)}." if still and moved else ""
     stays = (STAYS,) if any(p.name.startswith(SENSORS) for p in found.parameters) else ()
     reasons = (reason.sentence for reason in (*found.unobservable, *found.unexplained))
     return paragraphs(unmoved, *reasons, *stays, residual_line(found.residual))
@@ -126,7 +127,7 @@ def remarks_of(done: Calibrated) -> dict[str, str]:
         one, two = (found.parameters[found.index(f"across_{name}_{k}")] for k in (1, 2))
         texts = {
             "gain": said(found.parameters[found.index(f"gain_{name}")], 1.0),
-            "axis": f"{said(one, DEG)} and {said(two, DEG)} deg off as stated",
+            "axis": f"{said(one, DEG)} and {said(two, DEG)} deg from the stated value",
             "backlash_mm": said(found.parameters[found.index(f"backlash_{name}")], MM),
         }
         remarks |= {f"{key} {name}": f"calibrated: {text}" for key, text in texts.items()}

@@ -60,7 +60,7 @@ def tables_of(found: Sizing) -> Blocks:
 def remarks_of(found: Sizing) -> Blocks:
     """Return what was not counted, what is odd, how far masses reach, and what limits them."""
     missing = ", ".join(uncounted(found.case))
-    uncounted_text = f"Not stated, and not counted: {missing}."
+    uncounted_text = f"Not stated, and therefore neglected: {missing}."
     quiet: tuple[Block, ...] = (Paragraph(uncounted_text, "quiet"),) if missing else ()
     odd = (
         f"Records of {', '.join(f'{length:g}' for length in lengths)} s: {reason.sentence}"
@@ -91,11 +91,11 @@ def record_of(found: Sizing) -> RunRecord:
         "measurements and moves": str(case.moves),
     }
     return RunRecord(
-        title="What masses and sensors are good for",
+        title="Capability of masses and sensors",
         requested=requested | ({"torque required": required} if required else {}),
         testbed=case.testbed,
         conclusion=(outcome_claim(found),),
-        sections=(Section("Reach, steps, bounds and budget", tables_of(found)),
+        sections=(Section("Reach, resolution, bounds and torque budget", tables_of(found)),
                   Section("What this rests on", remarks_of(found))),
         origin=origin(),
         figures=pictures_of(found),
@@ -110,13 +110,13 @@ def reach_table(found: Sizing) -> Table:
     shown = ([plain(end / UM) for end in side] for side in ends(found.reach))
     rows = zip("xyz", *shown, wanted, strict=True)
     columns = (Column("along"), *(number(heading, "um") for heading in ("from", "to", "needed")))
-    return table("Shifts of the centre of mass that the masses can make from home", columns, rows)
+    return table("Reach: shifts of the centre of mass from home", columns, rows)
 
 
 def steps_table(steps: Sequence[MassStep], tilt: float) -> Table:
     """Return what each mass does with one step, and how truly it stops."""
     return tabulated(
-        "The least that each mass can do",
+        "Resolution: smallest effect of each mass",
         steps,
         (Column("mass"), lambda step: step.mass.name),
         (number("", "g"), lambda step: plain(step.mass.mass / GRAM)),
@@ -133,7 +133,7 @@ def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Table:
     """Return the least sd from records of several lengths, and the torque left after them."""
     moments = np.diag(inertia_P)
     return tabulated(
-        "Least sd of a free swing with one move, and of the last measurement",
+        "Cramer-Rao bounds of a free swing with one move, and of the last measurement",
         budgets,
         (Column("record"), lambda budget: f"{budget.first.duration:g} s"),
         (number("com first", "um"), lambda budget: triple(budget.first.com_sd / UM)),
@@ -173,9 +173,9 @@ def budget_table(found: Sizing) -> Table:
     columns = (Column(), number("x  y  z rms", "um"), number("rms", "uN m"),
                number("of squares"), Column("from"))  # fmt: skip
     title = (
-        f"What is left after {found.case.moves} measurements of "
-        f"{found.case.measurement_time:g} s and as many "
-        f"moves, within {found.case.tilt / DEG:.3g} deg of level"
+        f"Residual torque after {found.case.moves} measurements of "
+        f"{found.case.measurement_time:g} s and as many moves, within "
+        f"{found.case.tilt / DEG:.3g} deg of level"
     )
     return table(title, columns, rows)
 
@@ -195,11 +195,11 @@ def better_table(found: Sizing) -> Table:
     """Return what would be left if one thing were better."""
     shown = worth_listing(found.budget, found.better)
     rows = [(b.name, plain(b.torque / UN_M), f"{b.within / PERCENT:.3g} %") for b in shown] or [
-        ("nothing that is one step better changes it by 1 %", "", "")
+        ("no single improvement changes it by 1 %", "", "")
     ]
     now = f"{plain(found.budget.torque / UN_M)} now"
     columns = (Column("one thing better"), number(f"left ({now})", "uN m"), number("within reach"))
-    return table("What to buy next, the best first", columns, rows)
+    return table("Improvements, most effective first", columns, rows)
 
 
 def uncounted(case: Case) -> tuple[str, ...]:

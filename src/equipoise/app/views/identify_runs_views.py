@@ -31,7 +31,7 @@ from equipoise.app.text.run_blocks import TONES, moments, verdict_claim
 from equipoise.model.estimate import BODY, COM
 from equipoise.model.joint_estimate import Spread
 
-BESIDE = ("chi-square of how much a run deviates from all together, in the sd of that difference",)
+BESIDE = ("chi-square of the deviation from the joint estimate, in its sd",)
 
 
 def output_of(done: JointIdentification) -> Output:

@@ -43,7 +43,7 @@ def import_blocks(found: TableRead) -> Blocks:
     """Return the reading that is taken with its evidence, the others, and what is left aside."""
     notes = items([*_aside_lines(found.left_aside), *found.notes], "quiet")
     if found.by_header:
-        return (Claim("The file says itself what it holds.", "good"), *notes)
+        return (Claim("The file itself states what it holds.", "good"), *notes)
     if isinstance(found.taken, InertialUnit):
         return (*_unit_blocks(found.taken), *notes)
     shown = _open_blocks(found.ranked) if found.taken is None else _taken_blocks(found, found.taken)
@@ -105,7 +105,7 @@ def _taken_blocks(found: TableRead, taken: TableReading) -> Blocks:
     blocks += _gravity_blocks(taken)
     blocks += items([assumed_line(taken)], "quiet")
     if others := [each for each in found.ranked.alike if each is not taken]:
-        blocks.append(Heading("As good by the numbers, less usual"))
+        blocks.append(Heading("Equally supported, less common"))
         blocks += items((_differs(each, taken) for each in others), "quiet")
     return tuple(blocks)
 
@@ -140,7 +140,9 @@ def _undecided(ranked: Ranked) -> str:
             "The gyro may as well give rates about laboratory axes, for a quaternion that turns "
             "the other way: turn such rates into body axes first, else take --choose 1."
         )
-    return f"The numbers leave {count} readings alike: choose one, --choose 1 to {count}."
+    return (
+        f"The numbers support {count} interpretations equally: choose one, --choose 1 to {count}."
+    )
 
 
 def reading_lines(reading: TableReading) -> list[str]:

@@ -12,7 +12,7 @@ from equipoise.model.mass_budget import MassBudget
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import GRAM, PERCENT
 
-SHARES = "Shares of the variances of what the parts sum to, before any swing."
+SHARES = "Shares of the variances of the sum of parts, before any swing."
 
 
 def output_of(found: MassBudget, testbed: Testbed | None) -> Output:

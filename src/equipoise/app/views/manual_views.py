@@ -29,7 +29,7 @@ def effort(done: ByHand) -> str:
     """Return what it took."""
     handled, rounds = sum(placing.handled for placing in done.placings), len(done.placings)
     return (
-        f"{rounds} round{'s' * (rounds != 1)} of weights, {handled} handled, "
+        f"{rounds} round{'s' * (rounds != 1)} of weights, {handled} placed or removed, "
         f"{done.recorded:.0f} s of recordings."
     )
 

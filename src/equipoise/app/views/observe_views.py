@@ -65,7 +65,7 @@ def unobserved_blocks(information: Observability) -> Blocks:
 def record_of(done: Observation) -> RunRecord:
     """Return what a recording can show as a report."""
     return RunRecord(
-        title="What a recording can show",
+        title="What a recording can determine",
         requested={
             "recording": done.recording.source,
             "unknowns": ", ".join(done.bounds.names),
@@ -73,9 +73,11 @@ def record_of(done: Observation) -> RunRecord:
         testbed=done.testbed,
         conclusion=(rank_claim(done.bounds),),
         sections=(
-            Section("The least sd that any method can reach", bound_tables(done.bounds)),
+            Section(
+                "Cramer-Rao bounds: smallest sd of any unbiased method", bound_tables(done.bounds)
+            ),
             Section("Filters", (filter_table(done.filters),)),
-            Section("What the motion does not show", unobserved_blocks(done.bounds)),
+            Section("What the motion does not determine", unobserved_blocks(done.bounds)),
         ),
         origin=origin(sha256=done.recording.sha256),
     )
@@ -111,7 +113,7 @@ def ratio_table(ratios: Sequence[Parameter]) -> Table:
     """Return bounds of what does not need the scale."""
     unit = {ratio.name: unit_for(ratio.name, ratio.unit) for ratio in ratios}
     return tabulated(
-        "Ratios, which do not need the scale",
+        "Ratios (independent of the scale)",
         ratios,
         (Column(), lambda ratio: ratio.name),
         (number("least sd"), lambda ratio: with_sd(0.0, ratio.sd / unit[ratio.name].size)[1]),
@@ -122,7 +124,7 @@ def ratio_table(ratios: Sequence[Parameter]) -> Table:
 def filter_table(filters: Sequence[FilterView]) -> Table:
     """Return how much of its state each filter observes, and what it does not."""
     return tabulated(
-        "What filters observe of their state along this motion",
+        "Observability of filter states along this motion",
         filters,
         (Column(), lambda view: view.name),
         (number("exact sensors"), lambda view: f"{view.possible} of {view.size}"),
@@ -137,8 +139,9 @@ def sweep_line(information: Observability) -> str:
     low, high = (angle / DEG for angle in information.tilt)
     away = math.asin(min(math.sqrt(information.gravity_sweep), 1.0)) / DEG
     return (
-        f"Tilt from {low:.3g} to {high:.3g} deg; gravity leaves its mean direction in the body by "
-        f"{away:.3g} deg rms (least eigenvalue of its sweep {information.gravity_sweep:.2g})."
+        f"Tilt from {low:.3g} to {high:.3g} deg; gravity varies by {away:.3g} deg rms "
+        "around its mean direction in the body (least eigenvalue of its sweep "
+        f"{information.gravity_sweep:.2g})."
     )
 
 
@@ -148,9 +151,10 @@ def rank_claim(information: Observability) -> Claim:
         f"{information.condition:.2g}" if math.isfinite(information.condition) else "infinite"
     )
     return Claim(
-        f"{information.rank} of {information.size} unknowns, or mixtures of them, are observable; "
-        "condition number of "
-        f"the information: {condition}."
+        (
+            f"{information.rank} of {information.size} unknowns, or combinations of them, "
+            f"are observable; condition number of the information: {condition}."
+        )
     )
 
 

@@ -9,7 +9,7 @@ from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.manoeuvre import Plan
 
 TWICE = 2.0  # found / predicted, chosen: platforms of one testbed differ by so much
-NO_PROMISE = "The plan says nothing of what it predicts: there is nothing to compare."
+NO_PROMISE = "The plan contains no predictions to compare with."
 
 
 def promised(plan: Plan) -> dict[str, float]:
@@ -43,7 +43,7 @@ def kept_table(plan: Plan, estimate: Estimate) -> Table:
         unit = unit_for(name, "m" if name in COM else "kg m2")
         texts = [with_sd(0.0, value / unit.size)[1] for value in (sd, found)]
         rows.append((name, *texts, f"{found / sd:.2f}", unit.name))
-    return table("What was planned, and what came of it", columns, rows)
+    return table("Planned and achieved sd", columns, rows)
 
 
 def promise_sentences(plan: Plan, estimate: Estimate) -> list[str]:
@@ -55,10 +55,12 @@ def promise_sentences(plan: Plan, estimate: Estimate) -> list[str]:
     worst = max(ratios, key=lambda name: ratios[name])
     if high > TWICE:
         return [
-            f"{worst} is known {high:.2g} times worse than planned: another platform, another "
-            "start, or something that the plan did not model."
+            (
+                f"The sd of {worst} is {high:.2g} times the planned one: another platform, "
+                "another release, or an effect that the plan did not model."
+            )
         ]
-    return [f"Found sd are {low:.2g} to {high:.2g} times those that were planned."]
+    return [f"Achieved sd are {low:.2g} to {high:.2g} times the planned ones."]
 
 
 def kept_json(plan: Plan, estimate: Estimate) -> View:

@@ -73,7 +73,7 @@ def record_of(done: Planning) -> RunRecord:
     """Return the plan as a report."""
     request = done.request
     return RunRecord(
-        title="The manoeuvre that shows most",
+        title="The most informative manoeuvre",
         requested={
             "wanted": ", ".join(request.names),
             "criterion": request.criterion,
@@ -95,7 +95,7 @@ def promise_table(done: Planning) -> Table:
     """Return predicted sd of the usual manoeuvre and of the plan, and their ratio."""
     columns = (Column(), *map(number, ("usual", "planned", "times better")), Column("unit"))
     after = ", given the earlier recording" if done.request.earlier else ""
-    title = f"Predicted sd over {done.planned.platforms} platforms that may be there{after}"
+    title = f"Predicted sd over {done.planned.platforms} platforms drawn from the prior{after}"
     return table(title, columns, (promise_row(done, name) for name in (*COM, *INERTIA)))
 
 
@@ -112,7 +112,7 @@ def promise_row(done: Planning, name: str) -> Row:
 def steps_of(manoeuvre: Manoeuvre, testbed: Testbed) -> Iterator[tuple[str, str]]:
     """Return when and what, in words for a person at the bench."""
     if manoeuvre.standing:
-        yield "before", f"masses stand where they were left: {displacements(manoeuvre.standing)}"
+        yield "before", f"masses start where they were left: {displacements(manoeuvre.standing)}"
     yield "start", lean_words(manoeuvre, testbed.up)
     yield "", rate_words(manoeuvre.rate, testbed.up)
     for wave in manoeuvre.waves:
@@ -147,10 +147,10 @@ def lean_words(manoeuvre: Manoeuvre, up: Vector3) -> str:
 def rate_words(rate: Vector3, up: Vector3) -> str:
     """Return how to let go."""
     if not np.any(rate):
-        return "let go without a push"
+        return "release at rest"
     x, y, z = (f"{v / DEG:+.3g}" for v in rate + 0.0)
     spin = float(rate @ up) / DEG
-    return f"let go with a push: ({x}, {y}, {z}) deg/s in body axes, {spin:.3g} of it a spin"
+    return f"release with a rate of ({x}, {y}, {z}) deg/s in body axes, {spin:.3g} of it spin"
 
 
 def wave_words(wave: SquareWave, testbed: Testbed) -> str:
@@ -166,10 +166,11 @@ def limits_line(promise: Promise, request: Request, who: str) -> str:
     """Say how far a manoeuvre goes."""
     testbed, expected, n = request.testbed, promise.expected, promise.tried
     text = (
-        f"{who} tilts the platform that is expected by {expected.peak_tilt / DEG:.3g} deg at "
-        f"most, {n} others by up to {promise.greatest_tilt / DEG:.3g} deg, and reaches "
-        f"{promise.greatest_rate / DEG:.3g} deg/s; {promise.kept} of them keep the limits of "
-        f"{testbed.tilt_limit / DEG:.3g} deg and {request.rate / DEG:g} deg/s"
+        f"{who} tilts the expected platform by at most {expected.peak_tilt / DEG:.3g} "
+        f"deg, {n} others by up to {promise.greatest_tilt / DEG:.3g} deg, and reaches "
+        f"{promise.greatest_rate / DEG:.3g} deg/s; {promise.kept} of them keep the "
+        f"limits of {testbed.tilt_limit / DEG:.3g} deg and {request.rate / DEG:g} "
+        "deg/s"
     )
     if any(isinstance(d, ReactionWheel) for d in testbed.devices) or testbed.cmgs:
         text += f", stored momentum {expected.peak_momentum:.2g} N m s"
@@ -188,25 +189,30 @@ def verdict(done: Planning) -> str:
     """Say what the plan gains, and whether its limits are kept."""
     (name, before), (other, after) = (worst_of(p, done) for p in (done.usual, done.planned))
     if math.isinf(after):
-        text = f"This plan does not make all of it observable either: {other}."
+        text = f"This plan does not determine everything either: {other}."
     elif math.isinf(before):
-        text = f"The usual manoeuvre does not show {name}; the plan shows all that is asked for."
+        text = (
+            f"The usual manoeuvre does not determine {name}; the plan determines "
+            "everything requested."
+        )
     elif before < after:
         text = "The usual manoeuvre would be more informative, but it exceeds the limits."
     else:
-        gain = f"{before / after:.2g} times better"
+        gain = f"by a factor of {before / after:.2g}"
         which = name if other == name else f"{name}, then {other}"
-        text = f"What is known worst ({which}) is known {gain}."
+        text = f"The worst-determined quantity ({which}) improves {gain}."
     if done.planned.keeps:
         return text
     advice = (
         "a shorter record or more --trials may keep it"
         if done.request.earlier
-        else "too little is known of the centre of mass: record a short swing, halted before the "
-        "limit, and plan again with --prior-record"
+        else (
+            "the centre of mass is too uncertain: record a short swing, stopped before "
+            "the limit, and plan again with --prior-record"
+        )
     )
     kept = f"{done.planned.kept} of {done.planned.tried}"
-    return f"{text} The limits are kept by {kept} platforms only; {advice}."
+    return f"{text} Only {kept} platforms keep the limits; {advice}."
 
 
 def document(done: Planning) -> View:

@@ -32,4 +32,4 @@ def sentence(prospect: Prospect) -> str:
         return f"would not be stable: {prospect.refused}"
     if prospect.expected is None:
         return "can be used"
-    return f"should take {prospect.expected / MINUTE:.1f} min for an offset of one com_sd"
+    return f"expected duration {prospect.expected / MINUTE:.1f} min for an offset of one com_sd"

@@ -23,5 +23,7 @@ def read_foreign_body(
         return body_of(parse_mass_text(text, source), source, notation)
     body = body_of_xml(text, source)
     if not is_possible(body):
-        raise InputError(source, "an inertia that no body can have", "a file that a simulator takes")
+        raise InputError(
+            source, "an inertia that no body can have", "a file that a simulator takes"
+        )
     return body, "products: tensor, as such files have them"

@@ -27,9 +27,7 @@ def lines_of(stated: StatedBody, sign: str = TENSOR) -> Iterator[str]:
     yield from valued(central_names(), stated.about_C, central, "kg m2")
 
 
-def valued(
-    names: tuple[str, ...], values: np.ndarray, sds: np.ndarray, unit: str
-) -> Iterator[str]:
+def valued(names: tuple[str, ...], values: np.ndarray, sds: np.ndarray, unit: str) -> Iterator[str]:
     """Yield a line for each value with its sd."""
     for name, value, sd in zip(names, values, sds, strict=True):
         doubt = f"sd {sd:.2g}" if np.isfinite(sd) else "not shown by the data"

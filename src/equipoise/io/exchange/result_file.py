@@ -48,9 +48,9 @@ class _Found(BaseModel):
 
 
 class _Holding(BaseModel):
-    schema_: Literal[
-        "equipoise/inertia/1", "equipoise/identify_runs/1", "equipoise/assess/2"
-    ] = Field(alias="schema")
+    schema_: Literal["equipoise/inertia/1", "equipoise/identify_runs/1", "equipoise/assess/2"] = (
+        Field(alias="schema")
+    )
     estimate: _Found
 
 
@@ -121,7 +121,9 @@ def _estimate_in(document: _Found | _Holding | _Balance, where: str) -> _Found:
 def _check_whole(values: dict[str, _Parameter], names: tuple[str, ...], where: str) -> None:
     lacking = [name for name in names if name not in values or values[name].value is None]
     if lacking:
-        raise InputError(where, f"no value of {', '.join(lacking)}", "all of centre of mass and inertia")
+        raise InputError(
+            where, f"no value of {', '.join(lacking)}", "all of centre of mass and inertia"
+        )
 
 
 def _covariance(found: _Found, names: tuple[str, ...]) -> Square:

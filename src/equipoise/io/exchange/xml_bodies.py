@@ -51,7 +51,9 @@ def _sdf(inertial: Element, source: str) -> MassProperties:
     pose = _text(inertial, "pose", 6, source, (0.0,) * 6)
     stated = inertial.find("pose")
     if stated is not None and stated.attrib:
-        raise InputError(source, f"<pose> with {', '.join(stated.attrib)}", "x y z roll pitch yaw, rad")
+        raise InputError(
+            source, f"<pose> with {', '.join(stated.attrib)}", "x y z roll pitch yaw, rad"
+        )
     (mass,) = _text(inertial, "mass", 1, source)
     element = inertial.find("inertia")
     if element is None:
@@ -87,7 +89,11 @@ def _turn(rpy: Floats) -> Matrix3:
 
 
 def _numbers(
-    element: Element | None, key: str, count: int, source: str, default: tuple[float, ...] | None = None
+    element: Element | None,
+    key: str,
+    count: int,
+    source: str,
+    default: tuple[float, ...] | None = None,
 ) -> Floats:
     """Return the numbers of an attribute."""
     return _parsed(None if element is None else element.get(key), key, count, source, default)

@@ -10,10 +10,10 @@ from equipoise.model.recording import Recording
 from equipoise.model.units import UM
 
 CAPTION = (
-    "Centre of mass with the masses as they stand, um in body axes, while the platform is "
-    "balanced: tracker (line, band of two standard deviations), estimates of the procedure "
-    "(circles, bars of two standard deviations), target with its tolerance (shaded), simulated "
-    "truth at each step (crosses). Grey: masses travel."
+    "Centre of mass with the masses in their present positions, um in body axes, "
+    "during balancing: tracker (line, band of two standard deviations), estimates of "
+    "the procedure (circles, bars of two standard deviations), target with tolerance "
+    "(shaded), simulated truth at each step (crosses). Grey: masses move."
 )
 
 

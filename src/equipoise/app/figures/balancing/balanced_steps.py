@@ -9,9 +9,9 @@ from equipoise.app.figures.base.style import AXES, styled
 from equipoise.model.units import UM
 
 CAPTION = (
-    "Centre of mass with the masses as they stand, um in body axes: estimates of the procedure "
-    "(circles, bars of two standard deviations), target with its tolerance (shaded), simulated "
-    "truth at each step (crosses)."
+    "Centre of mass with the masses in their present positions, um in body axes: "
+    "estimates of the procedure (circles, bars of two standard deviations), target "
+    "with tolerance (shaded), simulated truth at each step (crosses)."
 )
 
 

@@ -9,9 +9,9 @@ from equipoise.model.units import MINUTE, UM
 from equipoise.procedure.identification.drift_metrics import OverHours
 
 CAPTION = (
-    "Centre of mass in windows along the recording, um in body axes (bars: two standard "
-    "deviations), and its Allan deviation: the typical change from one span of time to the next. "
-    "Dashed: the Allan deviation of measurement errors alone."
+    "Centre of mass in windows along the recording, um in body axes (bars: two "
+    "standard deviations), and its Allan deviation. Dashed: Allan deviation of "
+    "estimation errors alone."
 )
 
 
@@ -36,7 +36,7 @@ def draw(hours: OverHours, wander: Wander) -> Figure:
         axes.errorbar(wander.span, wander.deviation[:, i] / UM, error, color=XYZ[i], marker="o",
                       capsize=2, label=name)  # fmt: skip
         axes.plot(wander.span, wander.measurements_alone[:, i] / UM, color=XYZ[i], linestyle="--")
-    axes.set(xscale="log", yscale="log", xlabel="over a time of, s", ylabel="Allan deviation, um")
+    axes.set(xscale="log", yscale="log", xlabel="averaging time, s", ylabel="Allan deviation, um")
     axes.set_xticks(wander.span, [f"{span:g}" for span in wander.span])
     axes.xaxis.set_minor_locator(NullLocator())
     for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):

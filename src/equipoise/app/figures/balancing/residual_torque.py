@@ -9,8 +9,9 @@ from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
 from equipoise.model.units import UN_M
 
 CAPTION = (
-    "Torque on the platform in body axes, from its motion and inertia alone (Savitzky-Golay). "
-    "Shaded: two standard deviations of the noise without any torque, a mean over the three axes."
+    "Torque on the platform in body axes, from its motion and inertia "
+    "(Savitzky-Golay). Shaded: two standard deviations of the noise without torque, "
+    "averaged over the axes."
 )
 
 

@@ -10,9 +10,9 @@ from equipoise.app.figures.base.style import AXES, BAND, styled
 from equipoise.model.units import UM
 
 CAPTION = (
-    "Centre of mass off the target, um in body axes, recording by recording (circles, bars of two "
-    "standard deviations), the tolerance (shaded), simulated truth (crosses). Linear within the "
-    "tolerance, logarithmic beyond."
+    "Offset of the centre of mass from the target, um in body axes, by recording "
+    "(circles, bars of two standard deviations), tolerance (shaded), simulated truth "
+    "(crosses). Linear within the tolerance, logarithmic beyond."
 )
 TICKS = [-1000.0, -100.0, -10.0, 0.0, 10.0, 100.0, 1000.0]  # um
 

@@ -9,9 +9,9 @@ from equipoise.model.units import DEG, UN_M
 from equipoise.procedure.identification.assess import Assessment
 
 CAPTION = (
-    "Torque of gravity within a tilt of level, root mean square over all directions (line, band: "
-    "95 % bounds) and at the worst attitude (dashed). Dotted: the floor, what a perfect platform "
-    "could be proven to in this recording. Grey: the range that counts, and the requirement."
+    "Gravity torque within a tilt of level: root mean square over all directions "
+    "(line, band: 95 % bounds) and maximum (dashed). Dotted: detection limit of this "
+    "recording. Grey: the range of the requirement, and the requirement."
 )
 POINTS = 13
 
@@ -35,7 +35,7 @@ def draw(done: Assessment) -> Figure:
         limit = done.options.require_torque / UN_M
         axes.plot([0, done.torque.tilt / DEG], [limit, limit], color="black", label="required")
     axes.axvspan(0, done.torque.tilt / DEG, color="black", alpha=0.05, linewidth=0)
-    axes.set(xlim=(0, x[-1]), ylim=(0, None), xlabel="within a tilt of, deg",
+    axes.set(xlim=(0, x[-1]), ylim=(0, None), xlabel="tilt from level, deg",
              ylabel="torque, uN m")  # fmt: skip
     figure.legend(loc="outside upper center", ncols=4)
     return figure

@@ -12,9 +12,9 @@ from equipoise.model.recording import Recording
 
 COMPONENTS = ((0, "q0", PURPLE), (1, "q1", BLUE), (2, "q2", ORANGE), (3, "q3", GREEN))
 CAPTION = (
-    "Attitude quaternion (body to laboratory, scalar first), measured (rings, not all of them) "
-    "and predicted by the model (lines): (a) with the prior, (b) with the estimate. Grey: masses "
-    "travel."
+    "Attitude quaternion (body to laboratory, scalar first), measured (circles, a "
+    "selection) and predicted by the model (lines): (a) with the prior, (b) with the "
+    "estimate. Grey: masses move."
 )
 
 

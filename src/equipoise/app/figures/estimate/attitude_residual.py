@@ -11,8 +11,9 @@ from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
 
 CAPTION = (
-    "Measured attitude less the estimated model's, as a small turn about each body axis, deg. "
-    "Grey band: two standard deviations of the stated camera noise; grey strips: masses travel."
+    "Attitude residuals (measured minus estimated) about each body axis, deg. Grey "
+    "band: two standard deviations of the stated camera noise; grey strips: masses "
+    "move."
 )
 
 

@@ -8,8 +8,8 @@ from equipoise.model.estimate import COM, Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
-    "Centre of mass with the masses at home, along the record, um in body axes. Bands: two "
-    "standard deviations."
+    "Centre of mass with the masses at home along the record, um in body axes. Bands: "
+    "two standard deviations."
 )
 
 

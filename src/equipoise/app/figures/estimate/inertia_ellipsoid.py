@@ -14,8 +14,8 @@ from equipoise.model.mass_properties import MassProperties, second_moments
 from equipoise.model.units import MM
 
 CAPTION = (
-    "The ellipsoid of even density with this mass and inertia, mm in body axes; centre of mass "
-    "(dot), centre of rotation P (cross)."
+    "Ellipsoid of uniform density with this mass and inertia, mm in body axes; centre "
+    "of mass (dot), centre of rotation P (cross)."
 )
 SIZE = 4.4  # inches, chosen
 AROUND, ALONG = 25, 13  # meridians and parallels of the mesh, chosen

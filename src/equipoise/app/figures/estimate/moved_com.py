@@ -9,9 +9,10 @@ from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
-    "Centre of mass with the masses as they stand, um in body axes, across a known move: (a) the "
-    "move is fed forward to the tracker, (b) it is ignored and has to be found. Bands: two "
-    "standard deviations. Dashed: the simulated truth. Grey: masses travel."
+    "Centre of mass with the masses in their present positions, um in body axes, "
+    "across a known move: (a) with feed-forward of the move to the tracker, (b) "
+    "without. Bands: two standard deviations. Dashed: simulated truth. Grey: masses "
+    "move."
 )
 
 

@@ -8,8 +8,8 @@ from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
 
 CAPTION = (
-    "Angular velocity in body axes, deg/s: the estimated model (lines) and the gyro, if there is "
-    "one (dots). Grey: masses travel."
+    "Angular velocity in body axes, deg/s: estimated model (lines) and gyro, where "
+    "present (dots). Grey: masses move."
 )
 
 

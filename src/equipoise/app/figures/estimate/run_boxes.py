@@ -10,15 +10,15 @@ from equipoise.app.text.numbers import unit_for
 from equipoise.model.estimate import COM, INERTIA, NORMAL_95, Parameter
 
 CAPTION = (
-    "Centre of mass, um in body axes, and inertia about P, kg m2, masses at home, over the runs "
-    "(dots, each by itself): median, quartiles and range of the rest within 1.5 times their "
-    "distance. Beside them the joint estimate with its 95 % interval. Dashed: as the testbed "
-    "states it, where that is in the panel."
+    "Centre of mass, um in body axes, and inertia about P, kg m2, masses at home, "
+    "over the runs (dots): median, quartiles, whiskers within 1.5 interquartile "
+    "ranges. Beside them the joint estimate with its 95 % interval. Dashed: value of "
+    "the testbed, where it lies within the panel."
 )
 CAPTION_OF_BALANCING = (
-    "Centre of mass as the masses stand, um in body axes, by the verdict of each run (dots): "
-    "median, quartiles and range of the rest within 1.5 times their distance. Dashed: the target, "
-    "where that is in the panel."
+    "Centre of mass with the masses in their present positions, um in body axes, by "
+    "the verdict of each run (dots): median, quartiles, whiskers within 1.5 "
+    "interquartile ranges. Dashed: target, where it lies within the panel."
 )
 HIGH = 2.0  # inches of a row, chosen
 ROWS = (COM, INERTIA[:3], INERTIA[3:])

@@ -26,10 +26,11 @@ class Wanted(NamedTuple):
 
 def caption(at_home: bool, wanted: Wanted | None) -> str:
     """Return what the figure shows."""
-    shaded = "" if wanted is None else "; shaded: the target with its tolerance"
+    shaded = "" if wanted is None else "; shaded: target with tolerance"
     return (
-        f"Centre of mass with the masses {'at home' if at_home else 'as they stand'}, um in body "
-        f"axes, with bars of two standard deviations{shaded}."
+        "Centre of mass with the masses "
+        f"{('at home' if at_home else 'in their present positions')}, um in body axes, "
+        f"with bars of two standard deviations{shaded}."
     )
 
 

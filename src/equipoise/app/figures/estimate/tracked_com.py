@@ -11,8 +11,9 @@ from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
-    "Centre of mass with the masses at home, estimated by the tracker (Kalman filter), um in body "
-    "axes. Bands: two standard deviations. Dashed, if drawn: the simulated truth."
+    "Centre of mass with the masses at home, estimated by the tracker (Kalman "
+    "filter), um in body axes. Bands: two standard deviations. Dashed, if drawn: "
+    "simulated truth."
 )
 
 

@@ -8,8 +8,8 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.recording import Recording
 
 CAPTION = (
-    "What was recorded: tilt and rate of heading from the camera (deg, deg/s), rate from the gyro "
-    "(deg/s), displacement of the masses from home (mm), of those that there are."
+    "Recorded channels: tilt and heading rate from the camera (deg, deg/s), rate from "
+    "the gyro (deg/s), displacement of the masses from home (mm)."
 )
 
 

@@ -18,7 +18,7 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.finding import Finding
 from equipoise.model.recording import Recording
 
-SIGNS = "! an estimate will suffer from it   ~ set right in reading   1, 2 ... marked above"
+SIGNS = "! impairs an estimate   ~ corrected in reading   1, 2 ... marked above"
 PAGE = (8.27, 11.69)  # inches, A4
 LEFT, RIGHT = 0.135, 0.895  # of the page
 LABELS = -0.092  # of a panel's width: labels of the vertical axes stand under each other

@@ -9,8 +9,9 @@ from equipoise.model.units import DEG
 from equipoise.procedure.identification.assess import Assessment
 
 CAPTION = (
-    "Amplitude spectrum of the tilt about the two horizontal axes. Solid: swings found, with the "
-    "resolution of the record. Dashed: swings that the fit predicts (small, without spin)."
+    "Amplitude spectrum of the tilt about the two horizontal axes. Solid: detected "
+    "swing modes, with the resolution of the record. Dashed: modes predicted by the "
+    "fit (small, without spin)."
 )
 SHOWN = 6.0  # of the quickest swing, chosen: what is of interest
 

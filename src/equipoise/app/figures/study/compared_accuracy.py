@@ -11,9 +11,9 @@ from equipoise.app.figures.base.strokes import with_legend
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, styled
 
 CAPTION = (
-    "Errors of each method in units of the Cramer-Rao bound (dashed), root mean square over all "
-    "records that did not fail. Open: the method failed on some records, so that the easier ones "
-    "are left."
+    "Root mean square errors of each method in units of the Cramer-Rao bound "
+    "(dashed), over all records that did not fail. Open markers: the method failed on "
+    "some records, so that the easier ones remain."
 )
 LIMITS = (0.3, 1e4)  # chosen: beyond these the factor no longer matters
 

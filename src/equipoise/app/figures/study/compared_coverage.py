@@ -10,9 +10,9 @@ from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, styled
 
 CAPTION = (
-    "Share of the 95 % intervals that hold the truth, of runs in which the method does not warn of "
-    "them. Shaded: what chance leaves of true intervals at least, for as many draws as there are "
-    "runs. Orange: below that."
+    "Coverage of the 95 % intervals, over runs without a warning. Shaded: lower limit "
+    "of what chance allows for valid intervals, for this number of runs. Orange: "
+    "below it."
 )
 
 
@@ -27,7 +27,7 @@ class Coverage(NamedTuple):
 @styled
 def draw(methods: Sequence[Coverage]) -> Figure:
     """Return the figure."""
-    figure, axes = named_axes([m.name for m in methods], "intervals that hold the truth, %")
+    figure, axes = named_axes([m.name for m in methods], "coverage, %")
     axes.axvline(95.0, color=GREY, linestyle="--", linewidth=0.9)
     for k, method in enumerate(methods):
         low, share = 100 * method.least, 100 * method.share

@@ -8,9 +8,9 @@ from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.base.style import BLUE, GREY, styled
 
 CAPTION = (
-    "Torque that each law leaves, uN m rms over the tilt range: median (dot) and what 95 % of the "
-    "runs stay below (bar), with masses that follow where the law lets them. Dashed: what was "
-    "required."
+    "Residual torque of each law, uN m rms over the tilt range: median (dot) and 95th "
+    "percentile (bar), with masses that follow the tilt where the law permits it. "
+    "Dashed: requirement."
 )
 
 

@@ -10,9 +10,8 @@ from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.reachable_set import Reach, outline, tolerance
 
 CAPTION = (
-    "Shifts of the centre of mass that the masses can make from home, um (shaded), those that "
-    "platforms as stated need (one and two sd), and the offset that can be corrected whatever its "
-    "direction."
+    "Reach of the masses from home, um (shaded); shifts needed by platforms as stated "
+    "(one and two sd); offset that can be corrected in any direction."
 )
 PLANES = ((0, 1), (0, 2), (1, 2))
 AIR = 1.08  # of what is shown, chosen: room beside it

@@ -9,8 +9,8 @@ from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.sensitivity import Bettered
 
 CAPTION = (
-    "Torque that is left, uN m rms within the tilt: each cause by itself, all together (their root "
-    "sum square), and all together with one thing better."
+    "Residual torque, uN m rms within the tilt: each cause alone, all together (root "
+    "sum square), and all together with one improvement."
 )
 ROW = 0.24  # inches a bar
 
@@ -26,7 +26,7 @@ def draw(budget: Budget, better: Sequence[Bettered], required: float | None) -> 
     heights = [len(lines), max(len(changes), 1)]
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=heights)
     bars(upper, lines, "each cause by itself")
-    bars(lower, changes, "together, with one thing better")
+    bars(lower, changes, "together, with one improvement")
     lower.set_xlabel("uN m rms")
     if required is not None:
         for axes in (upper, lower):

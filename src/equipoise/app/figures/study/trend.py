@@ -13,10 +13,10 @@ from equipoise.model.arrays import Series, Series1
 from equipoise.model.units import UM
 
 CAPTION = (
-    "Centre of mass (um) and moments of inertia (kg m2) with the masses at home, run by run, with "
-    "bars of two standard deviations; dashed: the testbed file changed. On the right, if it was "
-    "recorded: against temperature. Many runs are drawn in groups: line and shade are the median "
-    "and the middle 95 % of what the runs of a group found."
+    "Centre of mass (um) and moments of inertia (kg m2) with the masses at home, by "
+    "run, with bars of two standard deviations; dashed: the testbed file changed. "
+    "Right, where recorded: over temperature. Many runs are drawn in groups: median "
+    "(line) and central 95 % (shade)."
 )
 LABELS = ("$r_x$, um", "$r_y$, um", "$r_z$, um", "$J_{xx}$", "$J_{yy}$", "$J_{zz}$")
 SIZES = np.array([UM, UM, UM, 1.0, 1.0, 1.0])

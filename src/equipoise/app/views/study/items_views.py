@@ -16,7 +16,7 @@ NOTE = (
 def blocks(papers: Mapping[str, str]) -> Blocks:
     """Return the papers by name, and the table of items."""
     works = sum(item.works for item in ITEMS)
-    title = f"What the papers ask for: {works} of {len(ITEMS)} items work, the others are decided"
+    title = f"Items of the papers: {works} of {len(ITEMS)} work, the others are decided"
     items = tabulated(
         title,
         ITEMS,

@@ -27,7 +27,7 @@ def output_of(done: IvanovRun, balancing: Balancing) -> Output:
 
 def blocks(done: IvanovRun) -> Blocks:
     """Return the paper's numbers beside ours."""
-    return (paper_table("Ivanov et al. 2021 beside this program", done.rows),)
+    return (paper_table("Ivanov et al. 2021 compared with this program", done.rows),)
 
 
 def document_of(done: IvanovRun) -> View:
@@ -49,7 +49,7 @@ def record_of(done: IvanovRun, balancing: Balancing) -> RunRecord:
         requested=simulated,
         testbed=done.preset,
         conclusion=(),
-        sections=(Section("The paper's numbers beside ours", blocks(done)),),
+        sections=(Section("The paper's numbers compared with ours", blocks(done)),),
         origin=origin(),
         figures=[*pictures_of(done), *balancing_pictures(balancing)],
     )

@@ -24,12 +24,12 @@ def short(value: float, digits: int) -> str:
 def laws_table(found: Comparison) -> Table:
     """Return all laws, the one that leaves the least torque first, and who was refused why."""
     said = (
-        f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
-        f"the runs stay below. Offsets from the target; torque rms within "
-        f"{found.tilt / DEG:.3g} deg of level, {both(found.before, UN_M, 3)} uN m before; "
-        "following: with masses that follow the tilt by the sag that was found. "
-        "Halted: broken off for safety; late: out of time; false: passed by a verdict, and "
-        "outside the tolerance."
+        f"{len(found.seeds)} platforms of {found.testbed.name}. Medians; in brackets "
+        "the 95th percentile. Offsets from the target. Torque rms within "
+        f"{found.tilt / DEG:.3g} deg of level; {both(found.before, UN_M, 3)} uN m "
+        "before. Following: masses follow the tilt by the estimated sag. Halted: "
+        "stopped for safety. Late: time limit reached. False: passed by a verdict, "
+        "but outside the tolerance."
     )
     refused = [f"{each.law} was refused: {each.why}" for each in found.refusals]
     laws = sorted(found.laws, key=lambda law: law.left.most)

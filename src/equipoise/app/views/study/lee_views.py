@@ -86,7 +86,7 @@ def output_of(done: LeeRun) -> Output:
 def blocks(done: LeeRun) -> Blocks:
     """Return the paper's findings, a table a slew, what each method says of itself, the bounds."""
     slews = (block for run in done.slews for block in slew_blocks(run))
-    beside = paper_table("Lee et al. beside this program", done.rows)
+    beside = paper_table("Lee et al. compared with this program", done.rows)
     return (beside, *slews, bound_table(done.slews))
 
 
@@ -125,7 +125,7 @@ def bound_table(runs: Sequence[Manoeuvre]) -> Table:
         share = percents(runs[0].testbed)[name]
         lines.append([name_of(name), *(f"{least(b)[name] / share:.2g} %" for b in bounds)])
     columns = (Column(), *map(number, heads))
-    return table("Least sd that the data allow", columns, lines, (LEAST,))
+    return table("Cramer-Rao bounds", columns, lines, (LEAST,))
 
 
 def least(bound: Observability) -> dict[str, float]:

@@ -18,22 +18,23 @@ from equipoise.study.method_run import JUDGED, MethodRun
 from equipoise.study.recommend import advised_method, lacks
 
 OPEN = (
-    "Nothing in these records, and no option, fixes the common scale of inertia and centre of "
-    "mass, so there is no bound and nothing to compare by: give --move, --hold or --prior."
+    "Neither these records nor an option fix the common scale of inertia and centre "
+    "of mass, so there is no bound to compare with: give --move, --hold or --prior."
 )
 READ = (
-    "RMSE / bound: root mean square of the errors, each in units of its record's Cramer-Rao bound "
-    "(of a fit that is asked the same; a method that begins from more, such as the testbed's guess "
-    "with its sd, may be below 1). bias: what of it averaging does not mend. holds: 95 % intervals "
-    "that hold the truth, of runs in which the method does not warn of them. NEES: squared error "
-    "over its covariance, a parameter; 1 is true. wrong: runs with a miss by more than 5 sd, "
-    "unwarned. warned: runs whose outcome warns of the intervals. failed: refused, not usable or "
-    "broken off; in no statistic. First those without failure and with honest intervals."
+    "RMSE / bound: root mean square error, each in units of its record's Cramer-Rao "
+    "bound (for the same unknowns; a method with prior information may be below 1). "
+    "bias: the part that averaging does not remove. holds: coverage of 95 % "
+    "intervals, over runs without a warning. NEES: squared error over covariance per "
+    "parameter; ideally 1. wrong: runs with an error above 5 sd and no warning. "
+    "warned: runs with a warning about the intervals. failed: refused, not usable or "
+    "aborted; excluded from statistics. Methods without failure and with valid "
+    "intervals come first."
 )
 TAKES = (
-    "ms: median time of the processor for a record. MB: peak of memory of Python and NumPy. "
-    "settles, s: time from which on com stays within a tenth of its first error, of methods that "
-    "go along the record; never: mostly not at all."
+    "ms: median processor time per record. MB: peak memory of Python and NumPy. "
+    "settles, s: time after which the com error stays below a tenth of its initial "
+    "value, for sequential methods; never: in most runs."
 )
 
 
@@ -98,8 +99,9 @@ def at_stop(found: MethodComparison) -> Iterator[str]:
     if found.met_stop:
         limit = found.scene.testbed.tilt_limit / DEG
         yield (
-            f"In {found.met_stop} of {len(found.seeds)} records the platform meets its stop, at "
-            f"{limit:.3g} deg of tilt: it hangs too far aside for any start. No method models it."
+            f"In {found.met_stop} of {len(found.seeds)} records the platform meets its "
+            f"stop, at {limit:.3g} deg of tilt: its equilibrium is too far from level "
+            "for any release. No method models this."
         )
 
 
@@ -132,7 +134,7 @@ def ratio_text(ratios: Ratios) -> str:
 def failures(found: MethodComparison) -> Iterator[str]:
     """Yield why methods failed, those together that say the same."""
     if any(0 < r.stated.part < r.stated.of for m in found.methods for r in (m.com, m.inertia)):
-        yield "*: of part of what the records show; the rest is not stated."
+        yield "*: only part of what the records determine is stated."
     reasons = dict[str, list[str]]()
     for method in found.methods:
         if method.failed:
@@ -155,9 +157,10 @@ def com_table(found: MethodComparison) -> Table:
             whole = figure(norm(method.rmse) / UM)
             lines.append([method.method, *(figure(float(x)) for x in columns.ravel()), whole])
     remark = (
-        "sd: of the errors over the runs. RMSE: of the vector, of what is stated of it. Bounds are "
-        "root mean squares over the records. Masses at home; a method that states com only as the "
-        "masses stand at the end, such as the tracker, is judged by that, and by its bound."
+        "sd: of the errors over the runs. RMSE: of the vector, as far as it is "
+        "stated. Bounds are root mean squares over the records. Masses at home; a "
+        "method that states com only at the end of the record, such as the tracker, "
+        "is judged there, with its bound."
     )
     columns = (Column(), *map(number, headings))
     return table("Errors of the centre of mass, um", columns, lines, (remark,))

@@ -28,7 +28,7 @@ def blocks(done: ReviewRun) -> Blocks:
     """Return the review's claims beside ours, and its Tables 2 and 3 measured."""
     name = done.testbed.name
     return (
-        paper_table("da Silva et al. 2021 beside this program", done.rows),
+        paper_table("da Silva et al. 2021 compared with this program", done.rows),
         methods_table(done.methods.methods, name),
         laws_table(done.every_law, name),
     )
@@ -46,7 +46,7 @@ def record_of(done: ReviewRun) -> RunRecord:
         requested={"paper": PAPER, "seeds": f"{done.seeds[0]} to {done.seeds[-1]}"},
         testbed=done.testbed,
         conclusion=(),
-        sections=(Section("What the review says, and what was measured", blocks(done)),),
+        sections=(Section("Claims of the review, and measurements", blocks(done)),),
         origin=origin(),
         figures=list(pictures_of(done)),
     )

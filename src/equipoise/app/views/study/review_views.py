@@ -11,18 +11,20 @@ from equipoise.study.review_tables import Span, law_rows, method_rows
 
 SOURCE = "da Silva et al. 2021"
 TABLE_2 = (
-    f"What the table says is after {SOURCE}, Table 2, in short; numbers in brackets are its "
-    "references. Measured, from the best method of a row to the worst: accuracy is RMSE / bound, "
-    "and bias (mismodelling) bias / bound, of the centre of mass; ms and MB are effort and memory "
-    "for one record; settles, the seconds until com stays within a tenth of the first error "
-    "(convergence; never: mostly not at all); failed and wrong, the share of runs without a usable "
-    "result and of confident misses by more than 5 sd (robustness)."
+    f"Claims after {SOURCE}, Table 2, abridged; numbers in brackets are its "
+    "references. Measured, from the best method of a row to the worst: accuracy is "
+    "RMSE / bound, and bias (mismodelling) bias / bound, of the centre of mass; ms "
+    "and MB are effort and memory for one record; settles, the seconds until the com "
+    "error stays below a tenth of its initial value (convergence; never: in most "
+    "runs); failed and wrong, the share of runs without a usable result and of "
+    "confident errors above 5 sd (robustness)."
 )
 TABLE_3 = (
-    f"What the table says is after {SOURCE}, Table 3 and sections 3 and 4; reported: results of "
-    "hardware after its Table 1. Measured, medians, from the best law of a row to the worst: "
-    "torque left, offset aside and in height, bench time; halted for safety; false: verdicts that "
-    "passed what was outside the tolerance. A row without numbers was not run here."
+    f"Claims after {SOURCE}, Table 3 and sections 3 and 4; reported: hardware results "
+    "of its Table 1. Measured medians, from the best law of a row to the worst: "
+    "residual torque, horizontal and vertical offset, bench time; halted for safety; "
+    "false: verdicts that passed a platform outside the tolerance. A row without "
+    "numbers was not run here."
 )
 
 

@@ -25,7 +25,7 @@ def output_of(runs: Sequence[Ran], testbed: Testbed, seeds: Sequence[int]) -> Ou
             requested={"paper": PAPER, "platforms of each": str(len(seeds))},
             testbed=testbed,
             conclusion=(),
-            sections=(Section("What is printed, and what is left here", blocks),),
+            sections=(Section("Printed and measured results", blocks),),
             origin=origin(),
         )
 
