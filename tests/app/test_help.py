@@ -27,6 +27,8 @@ COMMANDS = (
     "emulate",
     "record",
     "convert",
+    "export",
+    "import",
     "repair",
     "replay",
     "track",

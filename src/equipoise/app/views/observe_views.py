@@ -151,10 +151,8 @@ def rank_claim(information: Observability) -> Claim:
         f"{information.condition:.2g}" if math.isfinite(information.condition) else "infinite"
     )
     return Claim(
-        (
-            f"{information.rank} of {information.size} unknowns, or combinations of them, "
-            f"are observable; condition number of the information: {condition}."
-        )
+        f"{information.rank} of {information.size} unknowns, or combinations of them, "
+        f"are observable; condition number of the information: {condition}."
     )
 
 

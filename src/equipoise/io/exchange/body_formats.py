@@ -21,7 +21,7 @@ FORMATS = {
     "sdf": BodyFormat(".sdf", "Gazebo", xml_formats.sdf),
     "mjcf": BodyFormat(".xml", "MuJoCo", xml_formats.mjcf),
     "basilisk": BodyFormat(".py", "Basilisk", script_formats.basilisk),
-    "42": BodyFormat(".txt", "42 of NASA Goddard, lines of a spacecraft file", script_formats.nasa_42),
+    "42": BodyFormat(".txt", "42, lines of a spacecraft file", script_formats.nasa_42),
     "matlab": BodyFormat(".mat", "MATLAB, GNU Octave, scipy", data_formats.matlab),
     "simulink": BodyFormat(".m", "Simscape Multibody's block Inertia", script_formats.simulink),
     "yaml": BodyFormat(".yaml", "any reader of YAML", data_formats.yaml),

@@ -10,7 +10,7 @@ import numpy as np
 
 from equipoise.io.exchange.remarks import TENSOR, central_names, lines_of
 from equipoise.model.arrays import Floats, Square
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import COM
 from equipoise.model.stated_body import StatedBody, order
 
 FORMAT = "equipoise/mass_properties/1"

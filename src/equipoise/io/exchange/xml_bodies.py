@@ -1,4 +1,4 @@
-"""The one body of a URDF, an SDF or an MJCF file: mass, centre of mass, tensor in the body's axes."""
+"""The one body of a URDF, an SDF or an MJCF file: mass, centre of mass, tensor in its axes."""
 
 import re
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""URDF, SDF and MJCF: one link with the inertia about its centre of mass, elements of the tensor."""
+"""URDF, SDF and MJCF: one link, with the tensor about its centre of mass."""
 
 from xml.sax.saxutils import escape, quoteattr
 
