@@ -25,7 +25,7 @@ GAIN = 0.1  # of the tolerance: the least improvement of the worst axis by a mov
 
 
 def significant_com(later: Measured, aim: Aim) -> Vector3:
-    """Return the centre of mass (m), as on target along axes where it is open and not surely off."""
+    """Return the centre of mass (m), as on target where it is open and not off for sure."""
     off = later.com - aim.target
     is_open = later.sd > VAGUE * aim.tolerance
     return aim.target + np.where(is_open & (np.abs(off) < FOR_SURE * later.sd), 0.0, off)
