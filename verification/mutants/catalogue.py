@@ -534,6 +534,8 @@ PROCEDURE = _of(
      "procedure/balancing/test_hold_moves.py"),
     ("balancing/hold_moves.py", "later.sd > VAGUE * aim", "later.sd < VAGUE * aim",
      "procedure/balancing/test_hold_moves.py"),
+    ("balancing/run_law.py", "value=p.value + float(step)", "value=p.value - float(step)",
+     "control/laws/test_ivanov_25s.py"),
     ("balancing/hold.py", "com = significant_com(later, options)", "com = later.com",
      "procedure/balancing/test_hold_moves.py"),
     ("balancing/hold_moves.py", "return np.abs(com + shift_by", "return np.abs(com - shift_by",
