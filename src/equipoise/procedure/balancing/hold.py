@@ -31,11 +31,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
-from equipoise.procedure.balancing.hold_moves import (
-    nearest_offset,
-    next_goal,
-    significant_com,
-)
+from equipoise.procedure.balancing.hold_moves import nearest_offset, next_goal, significant_com
 from equipoise.procedure.balancing.hold_posterior import (
     COM_WALK,
     ahead,

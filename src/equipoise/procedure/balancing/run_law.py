@@ -14,11 +14,11 @@ import numpy as np
 
 from equipoise.actuators.control_moment_gyros import gyros_span
 from equipoise.actuators.reaction_wheels import axes_of, span
-from equipoise.actuators.sliding_masses import shift_by
 from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.control.law import Law, Sample
 from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
+from equipoise.estimation.methods.tracker import shift_at_end
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.model.bench import Bench
@@ -38,7 +38,7 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.steps.joint_fit import as_if_stiff, learn
 from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step, verdict_step
-from equipoise.procedure.steps.sampler import Eyes, last_row, opened, sample_of, sampled
+from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
 from equipoise.procedure.steps.tilt_guard import guarded, tilted
 from equipoise.procedure.steps.verification_swing import watched_swing
 from equipoise.procedure.steps.verify import Aim, verdict
@@ -219,7 +219,7 @@ def measured_estimate(recording: Recording, testbed: Testbed, requested: Measure
 
 def with_end(found: Estimate, recording: Recording, testbed: Testbed) -> Estimate:
     """Return an estimate with the centre of mass as masses stand, where it has it at home alone."""
-    shift = shift_by(testbed, last_row(recording.masses, np.zeros(len(testbed.masses))))
+    shift = shift_at_end(recording, testbed)
     if found.has(END[0]) or not found.has(COM[0]) or not shift.any():
         return found
     at_home = [found.index(name) for name in COM]
