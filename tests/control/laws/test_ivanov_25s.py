@@ -9,7 +9,7 @@ from equipoise.control.law import Sample
 from equipoise.control.laws import ivanov_25s
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import COM, Estimate, Parameter
+from equipoise.model.estimate import COM, END, Estimate, Parameter
 from equipoise.model.outcome import outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.model.units import UM
@@ -86,7 +86,17 @@ def test_the_paper_s_platform_is_within_ten_micrometres_after_four_moves(seed):
     near = replace(bed.truth, inertia_error=0.0, com_low=np.array([-10, -10, -150]) * UM,
                    com_high=np.array([10, 10, -50]) * UM)  # fmt: skip
     bench = SimulatedBench(replace(bed, inertia_sd=0.0, truth=near), seed)
-    steps = list(run_law(bench, ivanov_25s.LAW, LawOptions()))
-    assert sum(step.estimate is not None and step.verdict is None for step in steps) == 4
+    steps, coms = [], []
+    for step in run_law(bench, ivanov_25s.LAW, LawOptions()):
+        steps.append(step)
+        coms.append(bench.truth().com)
+    found = [(s.estimate, com) for s, com in zip(steps, coms, strict=True) if s.verdict is None]
+    found = [(estimate, com) for estimate, com in found if estimate is not None]
+    assert len(found) == 4
+    assert not found[0][0].has(END[0])  # masses at home
+    for estimate, com in found[1:]:  # with the masses as they stand; within 4 sd
+        sd = np.sqrt(np.diag(estimate.covariance_of(END)))
+        assert np.all(np.abs(estimate.values(END) - com) < 4 * sd)
+        assert estimate.values(END)[2] != estimate.com[2]
     assert np.linalg.norm(bench.truth().com - TARGET) < 10 * UM
     assert steps[-1].verdict.outcome != "halted"

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.events.record_model import Rival, improbability, refitted
+from equipoise.estimation.model_selection import model_comparison
 from equipoise.estimation.model_selection.model_choice import HEADING, without_group
 from equipoise.estimation.model_selection.reference_fit import modelled
 from equipoise.estimation.model_selection.rival_models import chosen, weights, with_rivals
@@ -63,6 +64,14 @@ def test_a_choice_among_choices_knows_all_rivals_once():
 def test_what_is_well_behind_is_no_rival(behind, count):
     model, bare = two()
     assert len(chosen([replace(model, rivals=(Rival(bare, behind),))]).rivals) == count
+
+
+def test_what_does_not_explain_all_keeps_its_rivals(monkeypatch):
+    """Beside the model with process noise, of which the one at hand is taken here."""
+    model, bare = two()
+    monkeypatch.setattr(model_comparison, "is_calm", lambda _: False)
+    (rival,) = model_comparison.compared(model, model, pushed=bare).rivals
+    assert rival.behind == pytest.approx(chosen(two()).rivals[0].behind)
 
 
 def test_intervals_count_the_distance_of_a_rival():

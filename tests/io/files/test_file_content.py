@@ -44,6 +44,11 @@ def test_what_is_sought_is_found_where_it_is(data, mark, at):
     assert content.endswith(mark) == data.endswith(mark)
 
 
+def test_what_is_sought_is_found_across_the_end_of_a_block():
+    """The window's seven bytes end amid it."""
+    assert Content.of(b"aaaaaa" + b"bb" + b"aaaaaaaa", "a").find(b"bb") == 6
+
+
 def test_a_byte_beyond_the_end_is_none():
     content = Content.of(b"abc", "a")
     assert content[2] == ord("c")

@@ -30,7 +30,10 @@ from tests.support.recordings.written_tables import columns, saved, text
 KINDS = (clock_guises, frame_guises, row_guises, shape_guises, source_guises, unit_guises)
 LEAST = 10  # guises of each kind
 REPORTED = variants_of(reported_guises)
+# In `make test` too: nothing else shows what they are read by.
+SINGLE = (frame_guises.rates_in_laboratory_axes, unit_guises.millidegrees_per_second)
 OWN = [each for kind in KINDS for each in thorough.some(variants_of(kind), LEAST)]
+OWN += [each for each in SINGLE if each not in OWN]
 IDENTIFIED = (
     clock_guises.counter_of_16_bits,
     frame_guises.laboratory_to_body,

@@ -18,6 +18,7 @@ DEEP = {
     "lists": "a = " + "[" * 5000 + "]" * 5000,
     "lists without an end": "a = " + "[" * 5000,
     "tables": "a = " + "{a = " * 5000 + "1" + "}" * 5000,
+    "one too many": "a = " + "[" * 33 + "]" * 33,
     "behind a text": "b = '''[[[[[['''\na = " + "[" * 5000,
 }
 

@@ -55,6 +55,6 @@ def test_a_move_takes_the_drift_along():
 def test_a_hold_ends_with_the_rails_that_the_drift_needs(at_um, why):
     """x1 and x2 stand at +50 mm: they can take com to -x alone, and the tolerance is 3 um."""
     displacement = np.array([0.05, 0.05, 0, 0, 0, 0])
-    there = Measured(HOLDING.target + np.array([at_um, 0, 0]) * UM, NOW.covariance)
+    there = HOLDING.target + np.array([at_um, 0, 0]) * UM
     bed = read_preset("sputnix")
     assert reason_to_stop(Recording(), there, displacement, bed, HOLDING) is why

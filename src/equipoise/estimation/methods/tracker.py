@@ -7,7 +7,7 @@ they are wider than need be.
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.actuators.sliding_masses import shift_by
 from equipoise.estimation.method_contract import SURPRISED, Method, Options, origin_of, refused
 from equipoise.estimation.parameters.flat_body import flat_reasons
 from equipoise.estimation.tracker import tracker
@@ -30,8 +30,7 @@ def shift_at_end(recording: Recording, testbed: Testbed) -> Vector3:
     """Return what the masses, as they stand at the end, do to the centre of mass (m)."""
     if recording.masses is None:
         return np.zeros(3)
-    last = recording.masses.values[-1]
-    return com_shift(mass_maps(testbed.masses), testbed.body.mass, last)
+    return shift_by(testbed, recording.masses.values[-1])
 
 
 def parameters_of(posterior: tracker.Posterior, shift: Vector3) -> tuple[Parameter, ...]:

@@ -31,7 +31,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
-from equipoise.procedure.balancing.hold_moves import nearest_offset, next_goal
+from equipoise.procedure.balancing.hold_moves import nearest_offset, next_goal, significant_com
 from equipoise.procedure.balancing.hold_posterior import (
     COM_WALK,
     ahead,
@@ -124,12 +124,13 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         now = standing(state, testbed, displacement)
         later = ahead(now, state, min(MEASUREMENT, end - bench.time))
         course += [now, later]
-        why = reason_to_stop(fresh, later, displacement, testbed, options)
+        com = significant_com(later, options)
+        why = reason_to_stop(fresh, com, displacement, testbed, options)
         if why is not None:
             bench.stop()
             yield stop_step(bench, now, why, bench.time - began)
             return
-        goal = next_goal(state, later.com, displacement, testbed, options)
+        goal = next_goal(state, com, displacement, testbed, options)
         if goal is not None:
             posterior = before_moving(state, testbed, displacement, goal)
             move = planned_move(testbed, displacement, goal, posterior, MoveReason.DRIFT)
@@ -148,14 +149,14 @@ def params_for(knowledge: Knowledge) -> tracker.Params:
 
 
 def reason_to_stop(
-    fresh: Recording, later: Measured, displacement: Floats, testbed: Testbed, options: HoldOptions
+    fresh: Recording, com: Vector3, displacement: Floats, testbed: Testbed, options: HoldOptions
 ) -> VerdictReason | None:
     """Return why to stop now, or None: it tilts too far, or no mass can follow any more."""
     if tilted(fresh, testbed):
         return VerdictReason.TILTED
-    if bool(np.all(np.abs(later.com - options.target) <= options.tolerance)):
+    if bool(np.all(np.abs(com - options.target) <= options.tolerance)):
         return None
-    left = nearest_offset(later.com, displacement, testbed, options.target)
+    left = nearest_offset(com, displacement, testbed, options.target)
     return VerdictReason.RAILS_ENDED if bool(np.any(left > options.tolerance)) else None
 
 

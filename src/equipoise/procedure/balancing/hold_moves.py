@@ -1,4 +1,9 @@
-"""When a hold moves masses, and where to: towards the target, and not so as to pump a swing."""
+"""When a hold moves masses, and where to: towards the target, and not so as to pump a swing.
+
+Where the tracker suspects a contact it opens its posterior, which noise then moves by as much as
+the sd, for some measurements. Mostly there was no contact: so what is not known well moves masses
+only where it is off for sure.
+"""
 
 import numpy as np
 
@@ -7,13 +12,23 @@ from equipoise.estimation.tracker import tracker
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.testbed import Testbed
+from equipoise.procedure.balancing.hold_verdict import Measured
 from equipoise.procedure.steps.displacement_choice import displacements_for
 from equipoise.procedure.steps.verify import Aim
 
 ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered
 PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
 WIDE = 0.6  # of the tilt limit: a swing that corrections should calm
+VAGUE = 0.5  # of the tolerance, chosen: an sd of the centre of mass that is open
+FOR_SURE = 2.0  # sd, chosen
 GAIN = 0.1  # of the tolerance: the least improvement of the worst axis by a move
+
+
+def significant_com(later: Measured, aim: Aim) -> Vector3:
+    """Return the centre of mass (m), as on target where it is open and not off for sure."""
+    off = later.com - aim.target
+    is_open = later.sd > VAGUE * aim.tolerance
+    return aim.target + np.where(is_open & (np.abs(off) < FOR_SURE * later.sd), 0.0, off)
 
 
 def correction(com: Vector3, displacement: Floats, testbed: Testbed, options: Aim) -> Floats | None:

@@ -18,12 +18,13 @@ from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.control.law import Law, Sample
 from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
+from equipoise.estimation.methods.tracker import shift_at_end
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.model.bench import Bench
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import Estimate
+from equipoise.model.estimate import COM, END, Estimate
 from equipoise.model.law_card import NEEDS, LawCard, Need
 from equipoise.model.reasons.law_reasons import LawReason
 from equipoise.model.reasons.reason import Reason, one_reason
@@ -206,13 +207,27 @@ def measured_estimate(recording: Recording, testbed: Testbed, requested: Measure
     testbed = as_if_stiff(testbed)
     options = Options(requested.terms, requested.hold, use_prior=requested.use_prior)
     if requested.method != trajectory.METHOD:
-        return estimated(METHODS[requested.method], recording, testbed, options)
+        found = estimated(METHODS[requested.method], recording, testbed, options)
+        return with_end(found, recording, testbed)
     # A held torque is zero: the trajectory fit leaves it out.
     terms = among({*testbed.disturbances, *requested.terms} - set(requested.hold))
     hold = tuple(name for name in requested.hold if name not in TERMS)
     params = trajectory.Params(terms, use_prior=requested.use_prior, hold=hold)
     fitted = trajectory.fit(recording, testbed, params)
     return conclude(fitted, trajectory.METHOD, recording)
+
+
+def with_end(found: Estimate, recording: Recording, testbed: Testbed) -> Estimate:
+    """Return an estimate with the centre of mass as masses stand, where it has it at home alone."""
+    shift = shift_at_end(recording, testbed)
+    if found.has(END[0]) or not found.has(COM[0]) or not shift.any():
+        return found
+    at_home = [found.index(name) for name in COM]
+    ends = zip(END, shift, (found.parameters[k] for k in at_home), strict=True)
+    moved = (replace(p, name=name, value=p.value + float(step)) for name, step, p in ends)
+    every = [*range(len(found.parameters)), *at_home]
+    covariance = found.covariance[np.ix_(every, every)]
+    return replace(found, parameters=(*found.parameters, *moved), covariance=covariance)
 
 
 def since(parts: tuple[Recording, ...], start: float) -> Recording:

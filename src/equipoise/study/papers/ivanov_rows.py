@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.actuators.sliding_masses import shift_by
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM, INERTIA, Course
@@ -127,4 +127,4 @@ def _commanded(tracked: Tracked) -> Floats:
     """Return the shift (um) that the loads make by their weight."""
     bed = tracked.testbed
     d = np.array([ivanov.MOVE.get(mass.name, 0.0) for mass in bed.masses])
-    return com_shift(mass_maps(bed.masses), bed.body.mass, d) / UM
+    return shift_by(bed, d) / UM
