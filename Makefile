@@ -132,7 +132,7 @@ $(VENDORED): web/package-lock.json web/package.json | $(RUN)
 
 COMPILE := uv pip compile pyproject.toml --quiet --universal --python-version 3.11 \
 	--generate-hashes --no-annotate --no-header --no-emit-index-url --no-emit-find-links
-EXTRAS := $(foreach extra,analysis parquet excel matlab hardware mavlink camera logs report dashboard cluster,--extra $(extra))
+EXTRAS := $(foreach extra,analysis parquet excel matlab hardware mavlink camera logs report dashboard cluster notebook,--extra $(extra))
 # Blocks of the second file whose name==version is (wanted=1) or is not (wanted=0) in the first.
 PICK := awk 'NR == FNR { first[$$1]; next } \
 	!/^ / { keep = (($$1 in first) == wanted) } keep'
@@ -140,7 +140,7 @@ PICK := awk 'NR == FNR { first[$$1]; next } \
 pins:  ## resolve all versions anew and write constraints.txt (needs uv)
 	@test -n "$(UV)" || { echo 'make pins needs uv: install uv' >&2; exit 1; }
 	@set -e; work=$$(mktemp -d); trap 'rm -rf "$$work"' EXIT; \
-	$(COMPILE) --upgrade --group build --group dev $(EXTRAS) -o $$work/all.txt; \
+	$(COMPILE) --upgrade --group build --group dev --group docs $(EXTRAS) -o $$work/all.txt; \
 	$(COMPILE) --group build --constraints $$work/all.txt -o $$work/run.txt; \
 	{ \
 		echo '# Written by `make pins`: names, versions and hashes, for every platform.'; \
