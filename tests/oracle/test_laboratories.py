@@ -114,7 +114,7 @@ def test_a_file_with_a_command_column(tmp_path, capsys, monkeypatch) -> None:
     csv.write_text("\n".join([f"{head},motor_command", *reported]) + "\n")
     toml.write_text(text_of_testbed(record.testbed))
     assert run(["inspect", str(csv)]) == 0
-    assert "left aside: 'motor_command'" in " ".join(capsys.readouterr().out.split())
+    assert "ignored: 'motor_command'" in " ".join(capsys.readouterr().out.split())
     code = run(["identify", str(csv), "--testbed", str(toml), "--json"])
     document = json.loads(capsys.readouterr().out)
     assert code == (0 if document["outcome"]["usable"] else 1)

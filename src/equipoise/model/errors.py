@@ -126,7 +126,7 @@ class Implausible(EquipoiseError):
 
     def __init__(self, source: str, reasons: Sequence[Reason]) -> None:
         said = " ".join(reason.sentence for reason in reasons)
-        super().__init__(f"{source}: nothing was fitted: {said} --force fits it all the same.")
+        super().__init__(f"{source}: nothing was fitted: {said} --force fits it anyway.")
         self.reasons = tuple(reasons)
 
 

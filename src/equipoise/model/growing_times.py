@@ -1,4 +1,4 @@
-"""Times that ought to grow: where a counter began anew, and the longest run that does not fall."""
+"""Times that ought to grow: where a counter restarted, and the longest run that does not fall."""
 
 from array import array
 from bisect import bisect_right
@@ -15,7 +15,7 @@ PART = 1 << 16  # times that are Python's numbers at once (chosen)
 
 
 def wraps(t: Series1, unit: float) -> list[tuple[int, float]]:
-    """Return where a clock (s, of a counter's ``unit``) began anew, and after how long (s)."""
+    """Return where a clock (s, of a counter's ``unit``) restarted, and after how long (s)."""
     steps = np.diff(t)
     ahead, back = steps[steps > 0], np.flatnonzero(steps < 0)
     if not len(back) or not len(ahead):

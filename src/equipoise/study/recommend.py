@@ -77,9 +77,9 @@ def lacks(method: MethodSummary, group: Group) -> str:
         (method.failed > 0, f"fails in {method.failed} of {runs} runs"),
         (stated.part < stated.of, f"states {stated.part} of {stated.of} values"),
         (method.confident_wrong > 0,
-         f"misses by more than {WRONG:g} sd in {method.confident_wrong} of {runs} runs"),
-        (method.trusted < MOSTLY * runs, f"warns of its intervals in {warned} of {runs} runs"),
-        (not cover.value >= least, f"has 95 % intervals that hold {percent(cover.value)}"),
+         f"is off by more than {WRONG:g} sd in {method.confident_wrong} of {runs} runs"),
+        (method.trusted < MOSTLY * runs, f"warns about its intervals in {warned} of {runs} runs"),
+        (not cover.value >= least, f"has 95 % intervals with a coverage of {percent(cover.value)}"),
     )  # fmt: skip
     return next((reason for lacking, reason in reasons if lacking), "")
 
@@ -87,10 +87,10 @@ def lacks(method: MethodSummary, group: Group) -> str:
 def numbers(method: MethodSummary, group: Group) -> str:
     """Return what a recommendation rests on."""
     return (
-        f"RMSE {ratios_of(method, group).rmse:.2g} times the bound, 95 % intervals that hold "
-        f"{percent(method.coverage.value)} of {method.coverage.of} (chance leaves "
-        f"{percent(least_share(method.trusted))} or more), no failure in {method.runs} runs, "
-        f"{float(f'{method.time / MS:.2g}'):g} ms"
+        f"RMSE {ratios_of(method, group).rmse:.2g} times the bound, 95 % intervals "
+        f"that hold {percent(method.coverage.value)} of {method.coverage.of} (at least "
+        f"{percent(least_share(method.trusted))} is consistent with chance), no "
+        f"failure in {method.runs} runs, {float(f'{method.time / MS:.2g}'):g} ms"
     )
 
 
@@ -107,10 +107,10 @@ def advised_method(methods: Sequence[MethodSummary], group: Group) -> Advice:
     sentence = f"For {CALLED[group]} take {best.method}: {numbers(best, group)}."
     quick = min((m for m in good if ratio(m) <= NEAR * ratio(best)), key=lambda m: m.time)
     if quick is not best:
-        sentence += f" Quicker and within {NEAR:g} times its error: {quick.method}, "
+        sentence += f" Faster, within {NEAR:g} times its error: {quick.method}, "
         sentence += f"{numbers(quick, group)}."
     if best.runs < FEW:
-        sentence += f" {best.runs} runs are few: more show better whose intervals are honest."
+        sentence += f" {best.runs} runs are few: more runs show whether its intervals hold."
     return Advice(best.method, sentence)
 
 
@@ -120,11 +120,11 @@ def nobody(
     """Say that no method qualifies, and what keeps the nearest ones from it."""
     stating = sorted((m for m in methods if ratios_of(m, group).stated.part), key=ratio)
     if not stating:
-        return f"For {CALLED[group]} there is no method to recommend: none states it."
+        return f"For {CALLED[group]} no method can be recommended: none states it."
     reported = "; ".join(f"{m.method} {lacks(m, group)}" for m in stating[:3])
     return (
-        f"For {CALLED[group]} there is no method to recommend: none is honest on all records. "
-        f"The most accurate: {reported}."
+        f"For {CALLED[group]} no method can be recommended: none has valid intervals "
+        f"on all records. The most accurate: {reported}."
     )
 
 
@@ -137,14 +137,12 @@ def advised_law(found: Comparison) -> Advice:
             found.laws, key=lambda law: (-law.within / law.runs, law.left.most), default=None
         )
         reported = "" if near is None else f" The nearest: {near.law}, {law_numbers(near)}."
-        wrong = (
-            "leaves the required torque in 95 % of runs and passes what is wrong in 2.5 % at most"
-        )
+        wrong = "leaves at most the required torque in 95 % of runs with at most 2.5 % false passes"
         return Advice(
-            None, f"There is no law to recommend: none {wrong} (at most {required}).{reported}"
+            None, f"No law can be recommended: none {wrong} (at most {required}).{reported}"
         )
     best = min(good, key=lambda law: (law.halted / law.runs, law.left.most))
-    doubt = "" if proven(best) else f" {best.runs} runs are too few to prove the share of 95 %."
+    doubt = "" if proven(best) else f" {best.runs} runs are too few to prove 95 %."
     said = f"Take {best.law}: {law_numbers(best)}; {required} was required.{doubt}"
     return Advice(best.law, said)
 
@@ -163,7 +161,8 @@ def proven(law: LawSummary) -> bool:
 def law_numbers(law: LawSummary) -> str:
     """Return what a recommendation of a law rests on."""
     return (
-        f"{law.left.median / UN_M:.3g} uN m left, {law.left.most / UN_M:.3g} uN m in the worst "
-        f"of 95 % of runs, within the required torque in {law.within} of {law.runs}, "
-        f"{law.halted} halted, {law.false_passes} passed wrongly, {law.time.median:.0f} s"
+        f"{law.left.median / UN_M:.3g} uN m left, {law.left.most / UN_M:.3g} uN m in "
+        f"the worst of 95 % of runs, within the required torque in {law.within} of "
+        f"{law.runs}, {law.halted} halted, {law.false_passes} false passes, "
+        f"{law.time.median:.0f} s"
     )

@@ -75,30 +75,31 @@ class LawRow:
 NOT_THERE = "not in its table"
 TABLE_2: dict[Family, Printed] = {
     "least squares": Printed(
-        "LSM [15]", "converges fast; costs effort and memory; mismodelling biases it"
+        "LSM [15]", "converges fast; costs effort and memory; biased by mismodelling"
     ),
-    "Kalman filter": Printed("KF [28]", "recursive, little memory; mismodelling biases it"),
+    "Kalman filter": Printed("KF [28]", "recursive, little memory; biased by mismodelling"),
     "extended Kalman filter": Printed(
-        "EKF [33]", "recursive, more accurate than linear ones; Jacobians; simple J biases it"
+        "EKF [33]",
+        ("recursive, more accurate than linear ones; Jacobians; biased by a simplified J"),
     ),
     "unscented Kalman filter": Printed(
-        "UKF [7]", "recursive, robust, no Jacobians; most effort of the filters"
+        "UKF [7]", "recursive, robust, no Jacobians; the most costly filter"
     ),
     "recursive": Printed("RLS (3.1.3)", NOT_THERE),
     "whole record": Printed("maximum likelihood", NOT_THERE),
 }
 TABLE_3: dict[Printed, tuple[str, ...]] = {
-    Printed("manual [10,19,26]", "no devices; an expert, and hours", "10 000 uN m [19,26]"): (
+    Printed("manual [10,19,26]", "no devices; takes an expert and hours", "10 000 uN m [19,26]"): (
         "by_hand",
     ),
     Printed(
         "underactuated [7,9]",
-        "faster than by hand, masses alone; two steps, the height is open to mismodelling",
+        ("faster than by hand, masses alone; two steps, height is sensitive to mismodelling"),
         "below 50 uN m or 1 um [9]",
     ): ("underactuated", "underactuated_integral", "planar_magnetic"),
     Printed(
         "fully actuated [27,33]",
-        "faster than by hand, one step, may be the best; needs torques about all axes",
+        ("faster than by hand, one step, possibly the best; needs torques about all axes"),
         "none",
     ): ("fully_actuated",),
     Printed(

@@ -48,7 +48,7 @@ INDICES = {
 def test_the_index_may_be_the_time(index):
     recording = made(pandas.DataFrame(NATIVE, index=index))
     holds(recording)
-    assert not any("left aside" in note for note in recording.notes)
+    assert not any("ignored" in note for note in recording.notes)
 
 
 def test_dates_say_where_the_clock_starts():

@@ -53,7 +53,7 @@ def test_a_conversation_is_printed_as_it_happens_in_both_directions():
     said = "\n".join(lines)
     wanted = (
         "-- masses: the port is open",
-        "-> masses: begin anew (0x18)",
+        "-> masses: restart (0x18)",
         "<- masses: I have begun: Grbl 1.1h",
         "-> masses: list your settings ($$)",
         "<- masses: ok: the line is taken",

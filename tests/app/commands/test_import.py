@@ -151,7 +151,7 @@ def test_columns_that_are_not_read_are_named_and_counted(equipoise, strict_json,
     others = {f"extra{k}": np.full(len(moved.t), float(k)) for k in range(11)}
     saved(tmp_path, text(columns(moved) | others))
     printed = " ".join(equipoise("import", "run.csv").out.split())
-    assert "left aside: 11 columns were not read, 'extra0', 'extra1'" in printed
+    assert "ignored: 11 columns were not read, 'extra0', 'extra1'" in printed
     assert "'extra7' and 3 more" in printed
     document = strict_json(equipoise("import", "run.csv", "--json").out)
     assert document["left_aside"] == list(others)

@@ -207,7 +207,7 @@ def test_an_index_that_cannot_be_read_is_named(of, runs):
     done = of()
     index.write_bytes(whole)
     assert done.code == 2
-    assert "delete it, and it is made anew" in " ".join(done.err.split())
+    assert "delete it, and it is rebuilt" in " ".join(done.err.split())
 
 
 def test_a_damaged_run_is_left_out_in_words(of, runs):

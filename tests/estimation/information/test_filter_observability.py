@@ -367,7 +367,7 @@ def test_a_swing_is_one_stretch():
 
 @pytest.mark.parametrize("grown", [10.0, filter_observability.GROWN])
 def test_the_rank_of_an_unstable_motion_is_independent_of_restarts(monkeypatch, grown):
-    """However often sensitivities are begun anew."""
+    """However often sensitivities are restarted."""
     monkeypatch.setattr(filter_observability, "GROWN", grown)
     along = tumbling()
     assert len(output_sensitivities(EKF, along).starts) > 2

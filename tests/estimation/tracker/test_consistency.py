@@ -127,7 +127,7 @@ def test_the_level_of_noise_is_found(times):
 
 @pytest.mark.parametrize(("start", "fresh"), [(10.0, True), (70.0, False)])
 def test_after_a_gap_of_28_s(start, fresh):
-    """Early on nobody can say how it has swung since, so it begins anew; later it goes on."""
+    """Early on nobody can say how it has swung since, so it restarts; later it goes on."""
     for seed in range(3):
         record = case_s.run(seed)
         t = record.attitude.t

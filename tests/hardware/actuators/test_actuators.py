@@ -131,7 +131,7 @@ def test_a_short_pause_disturbs_nothing(kind):
 
 
 def rests_until_begun(wire):
-    """Nothing is taken before it begins anew; then all is well."""
+    """Nothing is taken before it restarts; then all is well."""
     given = len(wire.given)
     with pytest.raises(BenchStopped, match="actuator mixed"):
         wire.driver.drive({"rw_x": 0.001}, wire.t)
@@ -175,7 +175,7 @@ def test_trouble_is_a_fault_in_words_and_ends_when_its_cause_is_gone(kind, late,
 
 @every_driver
 def test_a_device_that_begins_anew_and_reports_at_once_is_at_fault(kind):
-    """Its clock begins anew with it; counts that go on from zero are no motion."""
+    """Its clock restarts with it; counts that go on from zero are no motion."""
     wire = ActuatorWire(kind).working({"rw_x": 0.001})
     begun = wire.driver.begun
     wire.remote.actuator.press_reset(wire.t - 1.0)  # it takes no time to start

@@ -12,7 +12,7 @@ from tests.support.board_wire import Wire
 
 def test_grbls_bytes_in_words():
     words = GrblExplained()
-    assert words.sent(b"\x18?") == ["begin anew (0x18)", "where are you? (?)"]
+    assert words.sent(b"\x18?") == ["restart (0x18)", "where are you? (?)"]
     assert words.sent(b"$$\n\n") == [
         "list your settings ($$)",
         "are you taking lines? (an empty line)",

@@ -156,7 +156,7 @@ def test_a_search_that_a_reset_ends_is_not_taken_for_found():
     wire.remote.press_reset()
     state = wire.run(0.5)
     assert (state.phase, state.sure) == ("fault", False)
-    assert "began anew" in state.sentence
+    assert "restarted" in state.sentence
 
 
 def test_a_search_that_finds_no_switch_ends():

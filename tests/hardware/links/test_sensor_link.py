@@ -1,4 +1,4 @@
-"""A sensor's link: life by channel, pauses of the host, devices that begin anew."""
+"""A sensor's link: life by channel, pauses of the host, devices that restart."""
 
 import math
 from dataclasses import replace

@@ -93,7 +93,7 @@ def test_a_line_whose_beginning_was_missed_is_no_row():
 
 
 def test_a_line_is_sent_until_there_is_a_row():
-    """A board that begins anew when its port is opened does not receive what is sent at once."""
+    """A board that restarts when its port is opened does not receive what is sent at once."""
     driver = LineProtocol(unit("lines", columns=ROW, send="start"))
     driver.opened()
     assert [driver.due(t) for t in (0.0, 0.9, 1.0)] == [b"start\n", b"", b"start\n"]

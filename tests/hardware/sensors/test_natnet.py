@@ -130,7 +130,7 @@ def test_a_body_is_found_by_its_name():
     (row,) = driver.feed(motive.messages(rows)[0])
     assert row.values == pytest.approx((HALF, 0, HALF, 0), abs=1e-7)
     assert driver.due(3.0) == b"\x0a\x00\x01\x00\x00"
-    assert driver.due(4.0) == hello  # nothing has come for a second: Motive began anew
+    assert driver.due(4.0) == hello  # nothing has come for a second: Motive restarted
     assert NatNet(unit("natnet")).due(0.0) == b""
 
 

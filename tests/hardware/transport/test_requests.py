@@ -51,7 +51,7 @@ def test_one_by_one_the_next_waits_for_an_answer_and_a_refused_one_goes_behind()
 
 @pytest.mark.parametrize(("again", "sent"), [(1.0, 1), (ONCE, 0)])
 def test_a_device_that_was_quiet_for_long_gets_its_requests_anew(again, sent):
-    """It may have begun anew; not over a line on which twice would be two requests."""
+    """It may have restarted; not over a line on which twice would be two requests."""
     requests = Requests(["a"], again)
     run(requests, 0.0, 0.5)
     requests.confirmed("a")

@@ -36,7 +36,7 @@ def test_dates_are_seconds_since_the_first(tmp_path, times) -> None:
 
 
 def test_a_clock_of_the_day_goes_on_over_midnight(tmp_path) -> None:
-    """It begins anew at 24 h, which is said."""
+    """It restarts at 24 h, which is said."""
     times = ["23:59:59.50", "23:59:59.75", "00:00:00.00", "00:00:00.25"]
     recording = read(tmp_path, 'format = "clock of the day"', times)
     np.testing.assert_allclose(np.diff(recording.rate.t), 0.25, atol=1e-9)

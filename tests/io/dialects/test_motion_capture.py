@@ -52,7 +52,7 @@ def test_of_several_bodies_one_is_named(tmp_path) -> None:
         ]
     )
     np.testing.assert_allclose(turn, z_from_y @ TURN[0].as_matrix(), atol=1e-12)
-    assert "Other bodies were left aside: Base 1." in recording.notes
+    assert "Other bodies were ignored: Base 1." in recording.notes
 
 
 BODIES = {

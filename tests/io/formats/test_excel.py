@@ -37,7 +37,7 @@ def test_the_first_sheet_with_rows_of_numbers_is_taken_and_named():
     found = table({"About": about, "Empty": [], "Run 1": RATE_SHEET, "Run 2": RATE_SHEET})
     assert found.names == tuple(RATE_SHEET[0])
     (note,) = found.notes
-    assert note == "Taken from sheet 'Run 1'; sheets left aside: 'About', 'Empty', 'Run 2'."
+    assert note == "Taken from sheet 'Run 1'; sheets ignored: 'About', 'Empty', 'Run 2'."
 
 
 def test_a_table_may_begin_anywhere_and_is_found_by_the_rows_of_the_sheet():

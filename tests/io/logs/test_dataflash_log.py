@@ -68,7 +68,7 @@ def test_a_quaternion_goes_before_angles_and_an_inertial_units_rate_before_the_r
     observed = read(tmp_path, flight("ATT", "AHR2", "XKQ", "GYR", "IMU", "BARO"))
     assert "attitude: taken from topic 'XKQ', instance 0 of 0, 1." in observed.notes
     assert "rate: taken from topic 'IMU', instance 0 of 0, 1." in observed.notes
-    left = "Topics left aside: 'AHR2' (4 rows), 'ATT' (4 rows), 'GYR' (4 rows)."
+    left = "Topics ignored: 'AHR2' (4 rows), 'ATT' (4 rows), 'GYR' (4 rows)."
     assert left in observed.notes
     named = read(tmp_path, flight("ATT", "AHR2", "XKQ", "GYR", "IMU"), "ATT", "GYR")
     assert "attitude: taken from topic 'ATT'." in named.notes

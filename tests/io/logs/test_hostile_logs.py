@@ -210,7 +210,7 @@ def test_a_line_without_end_is_never_kept_whole():
 
 
 def test_a_log_of_many_days_is_put_in_order():
-    """The terminal's clock begins anew each midnight, a thousand times."""
+    """The terminal's clock restarts each midnight, a thousand times."""
     lines = Lines(ReadingBudget().of("log", 0))
     for day in range(1000):
         for hour in (0, 8, 16):

@@ -98,7 +98,7 @@ def test_a_vehicle_that_began_anew_is_timed_by_arrival(tmp_path):
     counts = [100, 101, 102, 0, 1]
     observed = read(tmp_path, tlog(*[[vehicle.turned(k)] for k in counts]))
     np.testing.assert_allclose(observed.attitude.t, 0.02 * np.arange(5), atol=1e-6)
-    assert any("clock began anew" in note for note in observed.notes)
+    assert any("clock restarted" in note for note in observed.notes)
 
 
 # --- Senders -----------------------------------------------------------------------------------
@@ -111,7 +111,7 @@ def test_rows_are_of_one_vehicle_the_first_whose_autopilot_beats(tmp_path):
     rows[0] = [station.beat(8), *rows[0], vehicle.beat(PX4)]
     observed = read(tmp_path, tlog(*rows))
     np.testing.assert_allclose(np.abs(observed.attitude.values @ OURS), 1, atol=1e-6)
-    assert "5 rows of other systems or components were left aside." in observed.notes
+    assert "5 rows of other systems or components were ignored." in observed.notes
 
 
 def test_a_log_without_motion_lists_its_messages(tmp_path):

@@ -126,7 +126,7 @@ def test_each_child_frame_is_a_source_and_a_fixed_one_is_no_motion(tmp_path, bag
     assert "--topic /tf:arm" in text
     observed = read(path, "/tf:platform")
     assert f"attitude: taken from topic '/tf:platform' ({TREE})." in observed.notes
-    left = next(note for note in observed.notes if note.startswith("Topics left aside"))
+    left = next(note for note in observed.notes if note.startswith("Topics ignored"))
     assert "'/tf:arm'" in left
     assert "'/tf:mount' (tf2_msgs/msg/TFMessage, 4 rows: one stamp, so no motion)" in left
     assert "one stamp, so no motion" in refused(path, "/tf:mount")

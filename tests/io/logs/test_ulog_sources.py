@@ -72,7 +72,7 @@ def test_the_estimate_goes_before_the_truth_unless_it_is_stated(tmp_path):
     content = log(level, ("vehicle_attitude_groundtruth", 0, PITCHED, 4), GYROS[0])
     observed = read(tmp_path, content)
     assert "attitude: taken from topic 'vehicle_attitude'." in observed.notes
-    assert "Topics left aside: 'vehicle_attitude_groundtruth' (4 rows)." in observed.notes
+    assert "Topics ignored: 'vehicle_attitude_groundtruth' (4 rows)." in observed.notes
     stated = read(tmp_path, content, "vehicle_attitude_groundtruth")
     np.testing.assert_allclose(stated.attitude.values[0, 2], -sin(HALF), atol=1e-6)
     assert stated.rate is None

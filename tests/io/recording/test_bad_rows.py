@@ -130,11 +130,11 @@ def test_a_clock_that_begins_anew_goes_on(tmp_path, start, modulus) -> None:
     body = lines(np.column_stack([wrapped, Q]))
     recording = read(tmp_path, body, ROS)
     np.testing.assert_allclose(recording.attitude.t, T + start, atol=1e-6)
-    assert any("began anew" in note for note in recording.notes)
+    assert any("restarted" in note for note in recording.notes)
 
 
 def test_a_wrap_with_rows_lost_goes_on_too(tmp_path) -> None:
-    """Seven rows are lost where a clock of the day begins anew."""
+    """Seven rows are lost where a clock of the day restarts."""
     keep = np.r_[0:48, 55:N]
     body = lines(np.column_stack([(86_395.0 + T) % 86_400.0, Q])[keep])
     recording = read(tmp_path, body, ROS)

@@ -110,7 +110,7 @@ FAULTS: dict[str, Callable[[Cells], object]] = {
     "times of which each comes twice": lambda rows: shifted(
         rows, slice(1, None, 2), lambda t: t - 0.05
     ),
-    "a clock that begins anew": lambda rows: shifted(
+    "a clock that restarts": lambda rows: shifted(
         rows, slice(None), lambda t: (t + 65530.0) % 65536.0
     ),
     "times of another clock at the end": lambda rows: shifted(

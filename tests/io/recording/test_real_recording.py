@@ -14,7 +14,7 @@ pytestmark = pytest.mark.skipif(not REAL.is_file(), reason="the real recording i
 
 
 def test_its_rows_and_rate_are_those_of_its_readme() -> None:
-    """601 rows, 10 Hz, 60 s; the derived rates are left aside, no mass is recorded."""
+    """601 rows, 10 Hz, 60 s; the derived rates are ignored, no mass is recorded."""
     recording = read_recording(REAL)
     assert recording.attitude is not None
     assert len(recording.attitude) == 601

@@ -52,24 +52,24 @@ def clocks(motion: Motion, start_s: int) -> list[str]:
     return [f"{h:02d}:{m:02d}:{s:02d}.{ms:03d}" for h, m, s, ms in parts]
 
 
-@answered(Reads(said="The clock began anew after 65.536 s"))
+@answered(Reads(said="The clock restarted after 65.536 s"))
 def counter_of_16_bits(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(columns(motion, t=(1e3 * motion.t + 40_000) % 2**16)))
 
 
-@answered(Reads(said="The clock began anew after 4294967"))
+@answered(Reads(said="The clock restarted after 4294967"))
 def milliseconds_of_32_bits(motion: Motion, folder: Path) -> Path:
     counted = (1e3 * motion.t + 2.0**32 - 20_000) % 2.0**32
     return saved(folder, text(columns(motion, "millis", counted)))
 
 
-@answered(Reads("inspect", said="The clock began anew after 604800 s"))
+@answered(Reads("inspect", said="The clock restarted after 604800 s"))
 def week_of_satellite_navigation(motion: Motion, folder: Path) -> Path:
     late = named(ROS, np.column_stack([(604_770 + motion.t) % 604_800, motion.q, motion.w]))
     return saved(folder, text(late))
 
 
-@answered(Reads(said="The clock began anew after 86400 s"))
+@answered(Reads(said="The clock restarted after 86400 s"))
 def midnight(motion: Motion, folder: Path) -> Path:
     return stamped(motion, folder, "time", clocks(motion, 86_370))
 

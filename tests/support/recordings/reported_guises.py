@@ -33,7 +33,7 @@ def one_wild_stamp(motion: Motion, folder: Path) -> Path:
     return saved(folder, changed(rows, {300: "9" + rows[301]}))
 
 
-@answered(Reads(said="The clock began anew after 4294"))
+@answered(Reads(said="The clock restarted after 4294"))
 def micros_wrap(motion: Motion, folder: Path) -> Path:
     counted = np.round(1e6 * motion.t + 2.0**32 - 36e6) % 2.0**32
     return saved(folder, text(columns(motion, "micros", counted)))

@@ -169,7 +169,7 @@ def zip_with_two_tables(motion: Motion, folder: Path) -> Path:
     return saved(folder, stream.getvalue(), "run.zip")
 
 
-@answered(Refused("gzip file that cannot be read", "copy it anew"))
+@answered(Refused("gzip file that cannot be read", "copy it again"))
 def gzip_cut_short(motion: Motion, folder: Path) -> Path:
     return saved(folder, gzip.compress(text(ours(motion)).encode())[:9000], "run.csv.gz")
 

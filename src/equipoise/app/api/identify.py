@@ -112,7 +112,9 @@ def identify(
     options = IdentifyOptions(method, requested.terms, requested.hold, use_prior, robust, budget)
     if isinstance(recording, list | tuple):
         if plan is not None:
-            raise InputError("plan", "several recordings", "the one that was made by the plan")
+            raise InputError(
+                "plan", "several recordings", "the recording that was made by the plan"
+            )
         several = [inputs.recording_from(each, bed) for each in recording]
         return joint_identification.run(several, bed, options, passing_on(on_step), Gate(force))
     rows = inputs.recording_from(recording, bed)

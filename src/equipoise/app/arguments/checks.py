@@ -36,7 +36,7 @@ def duration_of(option: str, seconds: float, testbed: "Testbed") -> float:
     rates = [each.rate for each in (testbed.attitude, testbed.gyro) if each is not None]
     longest = MOST_ROWS / max(sum(rates), 1.0)
     if positive(option, seconds) > longest:
-        wanted = f"at most {longest:.0f} s: with {sum(rates):g} rows a second {MOST_ROWS} in all"
+        wanted = f"at most {longest:.0f} s: with {sum(rates):g} rows per second {MOST_ROWS} in all"
         raise InputError(option, f"{seconds:g}", wanted)
     return seconds
 
@@ -58,7 +58,7 @@ def between(option: str, value: float, low: float, high: float) -> float:
 def share(option: str, value: float) -> float:
     """Return a share of the rows."""
     if not 0 <= value < 1:
-        raise InputError(option, f"{value:g}", "a share of the rows: at least 0, less than 1")
+        raise InputError(option, f"{value:g}", "a fraction of the rows: at least 0, below 1")
     return value
 
 

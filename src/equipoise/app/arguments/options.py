@@ -26,7 +26,9 @@ def _whole(_kind: Any, tokens: Sequence[Token]) -> int:
 
 BUDGET_S = 60.0  # s, chosen: what a person waits for
 Flag = Annotated[bool, Parameter(show_default=False)]
-Json = Annotated[bool, Parameter(show_default=False, help="Print one JSON document instead.")]
+Json = Annotated[
+    bool, Parameter(show_default=False, help="Print one JSON document instead of text.")
+]
 Names = Annotated[tuple[str, ...], Parameter(show_default=False)]
 Listed = Annotated[tuple[str, ...], Parameter(show_default=False, consume_multiple=True)]
 Triple = Annotated[tuple[float, float, float], Parameter(show_default=_plain)]
@@ -35,8 +37,11 @@ Whole = Annotated[int, Parameter(converter=_whole)]
 On = Annotated[
     str,
     Parameter(
-        help="Where to run: local, in processes of this computer; dask-local, in a Dask cluster "
-        "begun for it; or dask://HOST:PORT, on a scheduler that runs, with all its workers."
+        help=(
+            "Where to run: local, in processes of this computer; dask-local, in a "
+            "temporary Dask cluster; or dask://HOST:PORT, on a running scheduler with all "
+            "its workers."
+        )
     ),
 ]
 

@@ -17,7 +17,7 @@ def wrong_use(error: CycloptsError) -> str:
     if isinstance(error, MissingArgumentError) and name.strip("-").lower() == "testbed":
         words = error.root_input_tokens or ()
         return str(_no_testbed(" ".join(error.command_chain or ()), name, words))
-    return f"{error} (equipoise --help lists what there is)"
+    return f"{error} (equipoise --help lists the commands)"
 
 
 def _no_testbed(command: str, name: str, words: Sequence[str]) -> InputError:

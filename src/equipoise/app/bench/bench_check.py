@@ -30,7 +30,7 @@ from equipoise.model.units import DEG, MM
 A_LITTLE = 1e-3  # m: out and back
 UPSIDE = 90.0  # deg, chosen: no bench lets a platform tilt so far
 SLOW = 0.7  # of the stated rate of rows, chosen: below it a sensor is slower than stated
-ARRIVAL = " They are stamped as they arrive here; a stamp of the sensor's own would be even."
+ARRIVAL = " Times are those of arrival here; time stamps of the sensor itself would be even."
 LISTED = "; `equipoise devices` lists serial ports"
 ARRIVE, MEASUREMENT = 1.0, 0.05  # s, chosen: beyond the time that the way takes; between readings
 
@@ -68,13 +68,15 @@ def checked_bench(
 def _started(
     keeper: Keeper, bench: RealBench, agreed: Callable[[str], bool]
 ) -> Iterator[CheckResult]:
-    if keeper.links.boards and not agreed("The masses will go home. Is the way free?"):
-        yield CheckResult(False, "masses stay where they are, their position is not known")
+    if keeper.links.boards and not agreed("The masses will go home. Is their way free?"):
+        yield CheckResult(False, "masses stay where they are; their position is unknown")
         return
     bench.start()
     for link in keeper.links.boards:
         names = ", ".join(axis.mass for axis in link.board.axes)
-        yield CheckResult(True, f"board {link.board.name}: answers, agrees, {names} at home")
+        yield CheckResult(
+            True, f"board {link.board.name}: answers, settings agree, {names} at home"
+        )
         for remark in link.driver.remarks:
             yield CheckResult(False, f"board {link.board.name}: {remark.sentence}")
     yield from actuators_answer(keeper.links.actuators)
@@ -106,7 +108,7 @@ def frame_results(keeper: Keeper, recording: Recording) -> Iterator[CheckResult]
     if recording.attitude is not None:
         leaning = float(np.median(tilt(recording.attitude.values, testbed.up))) / DEG
         text = f"the axis that should point up is {leaning:.1f} deg from up"
-        wrong = "; is alignment or laboratory wrong in [[hardware.sensor]]?"
+        wrong = "; check alignment and laboratory in [[hardware.sensor]]"
         yield CheckResult(leaning < UPSIDE, text + ("" if leaning < UPSIDE else wrong))
     for finding in findings(recording, testbed):
         if finding.kind in ("problem", "wrong"):
@@ -129,8 +131,8 @@ def _moved(
             bench.read(MEASUREMENT)
         at = keeper.links.positions[mass.name]
         if abs(at - goal) > A_LITTLE / 2:
-            found = f"sent to {goal / MM:g} mm, its board says {at / MM:.2f} mm"
+            found = f"sent to {goal / MM:g} mm, its board reports {at / MM:.2f} mm"
             raise BenchStopped(f"mass {mass.name}: {found}")
     yield CheckResult(
-        True, f"mass {mass.name}: went 1 mm out and back, as its board says; check it by eye"
+        True, f"mass {mass.name}: moved 1 mm and back, as its board reports; check it by eye"
     )

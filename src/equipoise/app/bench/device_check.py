@@ -23,7 +23,9 @@ def actuators_answer(links: Sequence[ActuatorLink]) -> Iterator[CheckResult]:
     """Return which actuators answer and agree, and what would better be otherwise."""
     for link in links:
         names = ", ".join(link.unit.drives)
-        yield CheckResult(True, f"actuator {link.unit.name}: answers, agrees, {names} at rest")
+        yield CheckResult(
+            True, f"actuator {link.unit.name}: answers, settings agree, {names} at rest"
+        )
         for remark in link.driver.remarks:
             yield CheckResult(False, f"actuator {link.unit.name}: {remark.sentence}")
 
@@ -34,13 +36,15 @@ def devices_follow(
     """Drive each device that an actuator drives; BenchStopped where one does not follow."""
     driven = {name for link in keeper.links.actuators for name in link.unit.drives}
     for device in (each for each in keeper.testbed.devices if each.name in driven):
-        if not agreed(f"Drive {device.name} a little, to and fro?"):
+        if not agreed(f"Drive {device.name} slightly, in both directions?"):
             yield CheckResult(True, f"device {device.name}: not driven")
             continue
         _to_and_fro(bench, device)
         bench.stop()
         bench.read(AFTER)
-        yield CheckResult(True, f"device {device.name}: follows; check by eye which way it turns")
+        yield CheckResult(
+            True, f"device {device.name}: follows; check its direction of rotation by eye"
+        )
 
 
 def _to_and_fro(bench: RealBench, device: Device) -> None:

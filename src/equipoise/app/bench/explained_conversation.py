@@ -68,7 +68,7 @@ class Conversations:
         if address in self._endless and left >= -1:
             self._endless[address] = left
             if left == -1:
-                self._say(address, BACK, "and so on; what follows is not printed")
+                self._say(address, BACK, "and so on; the rest is not printed")
         return left >= 0
 
     def _say(self, address: str, way: str, words: str) -> None:

@@ -73,14 +73,18 @@ def check_by_hand(by: Manual, reading: Reading, others: list[str]) -> None:
     if not by.manual:
         raise InputError("balance", "options of --manual", "--manual with them")
     if by.recording is None and reading != WHOLE:
-        raise InputError("balance", "how to read a recording, but none", "--recording FILE")
+        raise InputError(
+            "balance", "options for reading a recording, but no recording", "--recording FILE"
+        )
     if by.recording is not None and by.session is None:
         raise InputError("--recording", "no --session", "the session's file, --session FILE")
     if others and by.then_masses:
-        wanted = "one of them: a person places weights first"
+        wanted = "one of them: weights are placed by a person first"
         raise InputError(", ".join(others), "--then-masses", wanted)
     if others:
-        raise InputError(", ".join(others), "--manual", "one of them: nothing moves by itself")
+        raise InputError(
+            ", ".join(others), "--manual", "one of them: manual balancing moves nothing by itself"
+        )
 
 
 def balance_by_hand(requested: Request) -> int:

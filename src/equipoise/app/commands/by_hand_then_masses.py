@@ -57,7 +57,7 @@ def _check(requested: Request, on_bench: OnBench) -> None:
         wanted = "the session in which weights were placed, --session FILE"
         raise InputError("--then-masses --bench", "no --session", wanted)
     if on_bench.bench and requested.by.recording is not None:
-        raise InputError("--recording", "--bench", "one after the other: the recording first")
+        raise InputError("--recording", "--bench", "one after the other: first the recording")
 
 
 def _limits(masses: Masses, bed: "Testbed") -> "Limits":
@@ -97,8 +97,12 @@ def _a_persons(
     if on_bench.bench:
         known = done.known
         if known is None:
-            found = "a platform that weights have not brought within reach"
-            raise InputError("--bench", found, deed or "a session in which they have")
+            found = "a platform that is still out of reach of its masses"
+            raise InputError(
+                "--bench",
+                found,
+                deed or "a session whose weights brought the platform within reach",
+            )
         prepare(known, requested.goal, limits, on_bench)
         with let_go(known, on_bench) as bench:
             done = and_then(done, bench, limits, shown)

@@ -66,7 +66,9 @@ def calibrate(
     if moves:
         return _report_moves(bed, testbed)
     if file is None:
-        raise InputError("calibrate", "no recording", "a file, or --moves to see which to make")
+        raise InputError(
+            "calibrate", "no recording", "a file, or --moves to list the moves to record"
+        )
     check_outputs(out, write)
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.runs.terminal_waiting import budget_at_terminal

@@ -38,5 +38,5 @@ def export(
     path, is_usable = exported(run, to, out, testbed)
     show_paths([path])
     if not is_usable:
-        stdout().print("The estimate is not usable: see the outcome in the file's first lines.")
+        stdout().print("The estimate is not usable; the first lines of the file state the outcome.")
     return 0 if is_usable else 1

@@ -87,7 +87,7 @@ def identify(
     bed, of_fit = testbed_from(testbed), options_of(seeking)
     check_outputs(out)
     if more and plan is not None:
-        raise InputError("--plan", "several recordings", "the one that was made by the plan")
+        raise InputError("--plan", "several recordings", "the recording that was made by the plan")
     engine = engine_from(spreading)
     if not more:
         check_one_piece(spreading, "several recordings")

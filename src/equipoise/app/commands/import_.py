@@ -143,7 +143,7 @@ def _write(
     if wanted.column_map is not None and chosen is not None:
         write_whole(wanted.column_map, toml_text(found.map_keys(chosen, up)))
     elif wanted.column_map is not None:
-        found_as = "a file that says itself what it holds"
+        found_as = "a self-describing file"
         raise InputError("--write-map", found_as, "no map: none is needed")
     if wanted.out is not None:
         write_recording(recording, wanted.out)

@@ -43,9 +43,9 @@ def inertia(
     if schema:
         return _print_schema()
     if parts is None:
-        raise InputError("inertia", "no parts file", "a file, or --schema to see what it holds")
+        raise InputError("inertia", "no parts file", "a file, or --schema for its format")
     if testbed is None and (write is not None or out is not None):
-        wanted = "the testbed that these mass properties are of"
+        wanted = "the testbed of these mass properties"
         raise InputError("--write and --out", "no --testbed", wanted)
     from equipoise.app.api.inertia import inertia as summed
     from equipoise.app.arguments.checks import check_outputs

@@ -57,9 +57,9 @@ def new(
         text = with_stated_body(text, body, from_.name, preset)
     path = out or Path(f"{preset}.toml")
     if path.exists() and not force:
-        raise InputError(str(path), "a file that is already there", "another --out, or --force")
+        raise InputError(str(path), "an existing file", "another --out, or --force")
     write_testbed(text, path)
-    stdout().print(f"wrote {path}: what is marked 'assumed' is yours to measure")
+    stdout().print(f"wrote {path}: replace the values marked 'assumed' by measured ones")
     if found:
         stdout().print(found)
     return 0

@@ -67,13 +67,15 @@ def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", requested: OnBench) 
     from equipoise.app.runs.rehearsal import practised
 
     check_reachable(hardware_of(bed))
-    with busy("practising on a simulated platform", announce=True):
+    with busy("practice on a simulated platform", announce=True):
         verdict = practised(bed, goal, limits)
     if verdict is not None and not verdict.passed:
         stderr().print(f"In practice, simulated: {verdict.sentence}")
     question = "The masses will go home. Is the platform held level, and their way free?"
     if not requested.yes and not agreed(question):
-        raise InputError("the platform", "not ready", "somebody who holds it; then yes, or --yes")
+        raise InputError(
+            "the platform", "not ready", "a person who holds it; then answer yes, or give --yes"
+        )
 
 
 @contextmanager
@@ -82,7 +84,7 @@ def let_go(bed: "Testbed", requested: OnBench) -> "Generator[Bench]":
     from equipoise.app.bench.open_bench import Wanted, real_bench
 
     def say() -> None:
-        stderr().print("Masses are at home: let the platform go.", style="bold")
+        stderr().print("Masses are at home: release the platform.", style="bold")
 
     with ExitStack() as held:
         with busy("the masses go home", announce=True):

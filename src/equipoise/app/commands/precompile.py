@@ -28,7 +28,7 @@ def precompile(*, workers: Whole | None = None) -> int:
     at_once = (os.cpu_count() or 1) if workers is None else int(positive("--workers", workers))
     with (
         TemporaryDirectory(prefix="equipoise-") as folder,
-        counted_pieces("compiling kernels, once on this computer") as report,
+        counted_pieces("compiling kernels, once per computer") as report,
     ):
         report(0, count)
         for done, _ in enumerate(rehearsed(Path(folder), at_once), 1):

@@ -45,19 +45,19 @@ def _sentences(file: str, done: "Repaired") -> list[str]:
     found = done.found
     kept = f"{found.count} messages, up to {done.last:.3f} s"
     if not done.written:
-        return [f"{file} is whole: {kept}. Nothing was written."]
+        return [f"{file} is complete: {kept}. Nothing was written."]
     if found.whole:
-        return [f"{file} is whole: {kept}. It has no index; the new file has one."]
+        return [f"{file} is complete: {kept}. It has no index; the new file has one."]
     reported = [f"Saved: {kept}."]
     if found.lost_places:
         places = f"{found.lost_bytes} bytes in {_counted(found.lost_places, 'place')}"
-        reported.append(f"Lost: {places} that made no sense.")
+        reported.append(f"Lost: {places} that could not be decoded.")
     if found.lost_messages:
         reported.append(
-            f"Lost: {_counted(found.lost_messages, 'message')}, as the file itself counts."
+            f"Lost: {_counted(found.lost_messages, 'message')}, according to the file's own count."
         )
     if not found.ended:
-        reported.append("The file has no end: how many messages followed is not known.")
+        reported.append("The file has no end record: how many messages followed is unknown.")
     return reported
 
 

@@ -90,13 +90,13 @@ def _track_blocks(found: "Track") -> "Blocks":
     from equipoise.app.text.blocks import items, paragraphs
 
     lost = [f"{each.count} pictures: {each.reason.sentence}" for each in found.unseen]
-    lost += [f"{found.broken} pictures broken or dropped"] if found.broken else []
+    lost += [f"{found.broken} pictures damaged or dropped"] if found.broken else []
     stated = ""
     if found.sds:
         whole, common = (math.degrees(float(np.median(each))) for each in (found.sds, found.common))
         stated = (
             f"stated error of an attitude: {whole:.4f} deg per axis, median; "
-            f"{common:.4f} deg of it is the same in all pictures, as the board's print is"
+            f"{common:.4f} deg of it is common to all pictures (board print)"
         )
     attitudes = f"an attitude was found in {len(found.t)} of {found.pictures} pictures"
     return (*paragraphs(attitudes, stated), *items(lost, "quiet"))

@@ -58,7 +58,7 @@ def crash_of(error: BaseException, arguments: Sequence[str]) -> Crash:
 def crash_text(error: BaseException, arguments: Sequence[str]) -> str:
     """Return what a crash file holds."""
     lines = (
-        f"equipoise {__version__} stopped at an error that it does not foresee",
+        f"equipoise {__version__} stopped at an unexpected error",
         f"at: {datetime.now(UTC).isoformat(timespec='seconds')}",
         f"arguments: {shlex.join(arguments)}",
         *map(_described, _named_files(arguments)),
@@ -94,9 +94,8 @@ def _sentence(error: BaseException, path: Path | None) -> str:
     named = "" if isinstance(error, UnforeseenError) else type(error).__name__
     what = ": ".join(filter(None, (named, message)))
     if path is None:
-        return f"an error that nobody has foreseen ({what}); no crash file could be written"
-    return f"an error that nobody has foreseen ({what}); please report it with {path}, which " \
-        "holds no data"  # fmt: skip
+        return f"unexpected error ({what}); no crash file could be written"
+    return f"unexpected error ({what}); please report it with {path} (no data in it)"  # fmt: skip
 
 
 def _kept(text: str) -> Path | None:

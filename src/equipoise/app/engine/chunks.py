@@ -58,13 +58,13 @@ def chunk_done(
     InputError where this worker has another version of the program than who sent them.
     """
     if version != __version__:
-        wanted = f"{version}, as who sends the work: the numbers might differ"
+        wanted = f"{version}, as on the sending side: results might differ"
         raise InputError("a worker", f"equipoise {__version__}", wanted)
     began, results = time.perf_counter(), list[Any]()
     for index, piece in zip(indices, pieces, strict=True):
         try:
             results.append(work(piece))
         except Exception as error:
-            error.add_note(f"in piece {index} of the work, counted from 0")
+            error.add_note(f"in chunk {index} of the work, counted from 0")
             raise
     return Done(results, time.perf_counter() - began)

@@ -34,7 +34,7 @@ COLUMNS = ("question", "key", "result")
 SHARE = 0.01  # of the time since the beginning, chosen: what is lost at most when it is ended
 SOONEST, LONGEST = 0.1, 10.0  # s, chosen: a chunk; what a person would wait for again
 PAIR = 2  # a key and its value
-WHOLE = "a file of results of the same question"
+WHOLE = "a file of results of the same study"
 
 
 class KeptResults:
@@ -65,8 +65,8 @@ class KeptResults:
         if not path.exists():
             write_whole(path, text)
         elif (before := path.read_text(encoding="utf-8")) != text:
-            found = f"results of another question ({first_difference(json.loads(before), stated)})"
-            raise InputError(str(self._folder), found, "the same question, or another folder")
+            found = f"results of another study ({first_difference(json.loads(before), stated)})"
+            raise InputError(str(self._folder), found, "the same study, or another folder")
 
     def found(self, pieces: Sequence[Any]) -> dict[int, Any]:
         """Return the results that are kept, by the index of their piece."""

@@ -9,9 +9,9 @@ from equipoise.app.engine.pool import Pool
 from equipoise.model.errors import InputError
 from equipoise.model.version import __version__
 
-LOST = "its sudden end, as where memory is at its end"
-GONE = "no scheduler any more: it has ended, or the network to it"
-RESUME = "; what --resume has kept is not computed again"
+LOST = "its sudden end, as when memory is exhausted"
+GONE = "no scheduler any more: it, or its connection, has ended"
+RESUME = "; completed runs kept by --resume are not computed again"
 
 
 class SentChunks:
@@ -79,7 +79,7 @@ def _explained(error: BaseException) -> BaseException:
     if isinstance(error, BrokenExecutor):
         found = InputError("a worker process", LOST, f"more memory, or fewer --workers{RESUME}")
     elif isinstance(error, CancelledError):
-        found = InputError("--on", GONE, f"one that lasts as long as the work{RESUME}")
+        found = InputError("--on", GONE, f"a scheduler that runs until the work is done{RESUME}")
     else:
         return error
     found.__cause__ = error

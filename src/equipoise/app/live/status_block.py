@@ -57,7 +57,7 @@ class TerminalView:
         try:
             lines = self._lines(options.max_width, options.ascii_only)
         except Exception as error:
-            lines = [f"{INDENT}the view has failed, the bench goes on: {error!r}"]
+            lines = [f"{INDENT}the view has failed, the bench continues: {error!r}"]
         yield Text()  # apart from the steps above
         for line in lines:
             yield Text(line, no_wrap=True, overflow="crop")

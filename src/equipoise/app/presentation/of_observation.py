@@ -18,7 +18,7 @@ def lines(done: Observation) -> Iterator[str]:
         if there:
             unit = unit_for(names[0], bounds.units[there[0]])
             sds = (with_sd(0.0, float(bounds.sd[k]) / unit.size)[1] for k in there)
-            yield f"  {head:10s} least sd {', '.join(sds)} {unit.name}"
+            yield f"{head:10s} minimum sd {', '.join(sds)} {unit.name}"
 
 
 def table(done: Observation) -> Table:

@@ -101,6 +101,6 @@ def figure(record: Shown) -> Any:
     view = view_of(record, "figure")
     drawn = None if view is None else view(record)
     if drawn is None:
-        found = "nothing that a figure shows"
-        raise InputError(f"plot of {type(record).__name__}", found, "a record with rows to draw")
+        found = "no data that a figure could show"
+        raise InputError(f"plot of {type(record).__name__}", found, "a record with rows")
     return drawn

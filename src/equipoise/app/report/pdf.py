@@ -51,5 +51,5 @@ def _set(what: str, sources: Mapping[str, bytes], **options: Any) -> bytes:
     try:
         return compiled(sources, **options)
     except typst.TypstError as error:
-        wanted = "blocks and figures that it can set"
+        wanted = "blocks and figures that the PDF supports"
         raise InputError(what, f"typst's '{error}'", wanted) from error

@@ -44,13 +44,13 @@ def saved_drawing(folder: Path, path: Path) -> bytes:
     content = _read(folder, path)
     fault = _fault_of_drawing(content)
     if fault:
-        raise InputError(str(path), fault, "the figure that the run has drawn, complete in itself")
+        raise InputError(str(path), fault, "the complete figure file of the run")
     return content
 
 
 def _read(folder: Path, path: Path) -> bytes:
     if path.exists() and not path.resolve().is_relative_to(folder.resolve()):
-        raise InputError(str(path), "a link to elsewhere", "a file of the run's own folder")
+        raise InputError(str(path), "a link to elsewhere", "a file in the run's own folder")
     if path.is_file() and path.stat().st_size > BYTES:
         raise InputError(str(path), f"{path.stat().st_size} bytes", f"at most {BYTES}")
     return read_bytes(path, A_RUN)
@@ -63,11 +63,11 @@ def _fault_of_drawing(content: bytes) -> str:
     except UnicodeDecodeError:
         return "no SVG drawing"
     if not text.lstrip().startswith("<") or "</svg>" not in text:
-        return "no SVG drawing, or one that is cut short"
+        return "no complete SVG drawing"
     if LINKED.search(text) or ACTING.search(text):
         return "a drawing with links, filters or entities"
     if any(_pixels(start) > PIXELS for start in EMBEDDED.findall(text)):
-        return "a drawing with a picture that is too large"
+        return "a drawing with too large an image"
     return ""
 
 

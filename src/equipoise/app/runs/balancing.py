@@ -39,7 +39,7 @@ from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
 from equipoise.procedure.identification.record_courses import RecordCourses, balancing_courses
 from equipoise.simulation.bench import SimulatedBench
 
-HALTED = "every mass was halted where it is"
+HALTED = "every mass was halted"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

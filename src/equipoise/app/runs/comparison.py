@@ -122,8 +122,8 @@ def chosen(testbed: Testbed, only: Sequence[str]) -> list[LawCard]:
     """Return the laws to run; InputError for one that is unknown or lacks a device, or for none."""
     able = [card for card in CARDS.values() if not lacking(card, testbed)]
     if not able:
-        found = "a testbed that has the devices for none of the laws"
-        raise InputError(testbed.name, found, "what `equipoise laws` says that they need")
+        found = "a testbed with the devices of none of the laws"
+        raise InputError(testbed.name, found, "the devices that `equipoise laws` lists")
     if not only:
         return able
     cards = [CARDS[one_of("--only", name, list(CARDS))] for name in only]

@@ -156,8 +156,8 @@ def check_vertical(reading: TableReading | InertialUnit, source: str) -> None:
         f"laboratory, by the accelerometer {named}"
     )
     wanted = (
-        "attitudes in a laboratory of which one axis points up: level its axes (the ground plane "
-        "of a motion capture) and record anew"
+        "attitudes in a laboratory with one vertical axis: level its axes (the ground "
+        "plane of a motion capture) and record again"
     )
     raise InputError(source, found, wanted)
 

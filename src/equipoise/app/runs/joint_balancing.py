@@ -18,7 +18,7 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.hands_then_masses import hands_then_masses, within_reach
 from equipoise.simulation.hands import SimulatedHands
 
-NEXT = "Leave every weight where it lies and switch the bench on. Then:"
+NEXT = "Leave every weight in place and switch the bench on. Then:"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

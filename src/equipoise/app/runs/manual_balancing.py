@@ -30,8 +30,9 @@ from equipoise.simulation.hands import SimulatedHands
 Show = Callable[[Step], None] | None
 Procedure = Callable[[Hands, HandOptions], Iterator[Step]]
 LET_GO = (
-    "Hold the platform still and about level, start to record, let go, and catch it at the tilt "
-    "limit or after a minute. Leave out what your hands did (--from-s, --to-s). Then:"
+    "Hold the platform still and nearly level, start recording, release it, and catch "
+    "it at the tilt limit or after one minute. Cut off the handling (--from-s, "
+    "--to-s). Then:"
 )
 
 
@@ -125,7 +126,7 @@ def resume(
     awaited = procedure(hands, options_of(goal, filed.session.max_rounds))
     steps = list(shown(until_awaited(watched(awaited, "balancing")), show))
     if hands.swings < len(filed.recordings):
-        wanted = f"no recording after the verdict, which came with number {hands.swings}"
+        wanted = f"no recording after the verdict, which followed recording {hands.swings}"
         raise InputError("--recording", f"number {len(filed.recordings)}", wanted)
     return summary(hands, goal, steps, None, ()), hands.placed
 
@@ -167,7 +168,7 @@ def opened(session: Session, bed: Testbed, requested: Session, where: str) -> Fi
     for key in ("testbed", "target_um", "tolerance_um", "max_rounds", "then_masses"):
         was, now = getattr(session, key), getattr(requested, key)
         if was != now:
-            raise InputError(f"{where}: {key}", str(now), f"{was}, with which it was begun")
+            raise InputError(f"{where}: {key}", str(now), f"{was}, with which the session started")
     recordings = [recording_of(each, bed, where) for each in session.round]
     piles = Piles(bed)
     placed = [

@@ -85,7 +85,7 @@ def run(request: Request, waiting: Waiting = QUIET) -> Planning:
     with waiting.search("planning") as report:
         best = planned(space, wish, request.seed, Trials(request.trials, waiting.spread, report))
     before = usual(testbed, request.duration, standing)
-    with waiting.doing("trying it on other platforms"):
+    with waiting.doing("testing it on other platforms"):
         variants = [(before, wish), (best, wish)]
         variants += [(best, replace(wish, known=None))] if known else []
         first, second, *third = waiting.spread(partial(promised, request), variants)

@@ -98,7 +98,7 @@ def _linear_line(residual: Residual) -> str:
     text = f"Error index {residual.error_index:.3g}: relative residual of the rows"
     if residual.error_indices:
         name, worst = max(residual.error_indices.items(), key=lambda item: item[1])
-        text += f"; parameter error index of {name} {worst:.2g}, the greatest"
+        text += f"; maximum parameter error index {worst:.2g} ({name})"
     return (
         f"{text}. These indices assume independent rows and exact columns; they are no intervals."
     )

@@ -15,10 +15,10 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 PLACE = (
-    "wanted: [sensor.accelerometer] with its place, and [sensor.gyro], in the testbed file; which "
-    "axes of the platform these are, the table does not say."
+    "wanted: [sensor.accelerometer] with its position, and [sensor.gyro], in the "
+    "testbed file; the table does not tell which axes of the platform these are."
 )
-NAMED = 8  # columns left aside that are named (chosen: two lines of a terminal)
+NAMED = 8  # columns ignored that are named (chosen: two lines of a terminal)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class TableRead:
 
 
 def import_blocks(found: TableRead) -> Blocks:
-    """Return the reading that is taken with its evidence, the others, and what is left aside."""
+    """Return the reading that is taken with its evidence, the others, and what is ignored."""
     notes = items([*_aside_lines(found.left_aside), *found.notes], "quiet")
     if found.by_header:
         return (Claim("The file itself states what it holds.", "good"), *notes)
@@ -75,14 +75,14 @@ def _unit_blocks(unit: InertialUnit) -> Blocks:
     """Return a gyro and an accelerometer, and how well they agree."""
     clock, load, gyro = unit.clock, unit.accelerometer, unit.gyro
     lines = [
-        f"clock: '{clock.column}' in {clock.unit}, a row each {clock.step:.4g} s.",
+        f"clock: '{clock.column}' in {clock.unit}, one row every {clock.step:.4g} s.",
         f"accelerometer: x, y, z = {_named(load, 'm/s2')}.",
         f"gyro: x, y, z = {_named(gyro, 'rad/s')}.",
         f"up: {unit.up} of the accelerometer.",
     ]
     evidence = (
-        f"gravity: {100 * (1 - unit.misfit):.1f}% of its turning in the body over {unit.spans} "
-        "spans is what the gyro says."
+        f"gravity: {100 * (1 - unit.misfit):.1f}% of its rotation in the body over "
+        f"{unit.spans} spans agrees with the gyro."
     )
     return (
         Claim("No attitude, but an inertial unit; the table is read as follows.", "good"),
@@ -95,7 +95,7 @@ def _unit_blocks(unit: InertialUnit) -> Blocks:
 def _named(triad: Triad, si: str) -> str:
     pairs = zip(triad.signs, triad.columns, strict=True)
     columns = ", ".join(f"{'-' if sign < 0 else ''}'{name}'" for sign, name in pairs)
-    return f"{columns}; {triad.unit or f'{triad.factor:.4g} {si} a count'}"
+    return f"{columns}; {triad.unit or f'{triad.factor:.4g} {si} per count'}"
 
 
 def _taken_blocks(found: TableRead, taken: TableReading) -> Blocks:
@@ -125,20 +125,21 @@ def _aside_lines(columns: tuple[str, ...]) -> list[str]:
     named = ", ".join(f"'{name}'" for name in columns[:NAMED])
     more = f" and {len(columns) - NAMED} more" if len(columns) > NAMED else ""
     count = "1 column was" if len(columns) == 1 else f"{len(columns)} columns were"
-    return [f"left aside: {count} not read, {named}{more}."]
+    return [f"ignored: {count} not read, {named}{more}."]
 
 
 def _undecided(ranked: Ranked) -> str:
     if not ranked.alike:
         return (
-            "No clock with four columns of a quaternion, or three named angles, was found. "
-            "--write-map writes a column map to start from, for you to fill in."
+            "No clock with four columns of a quaternion, or three named angles, was "
+            "found. --write-map writes a column map for you to complete."
         )
     count = len(ranked.alike)
     if count == 1:
         return (
-            "The gyro may as well give rates about laboratory axes, for a quaternion that turns "
-            "the other way: turn such rates into body axes first, else take --choose 1."
+            "The gyro may also give rates about laboratory axes, for the inverse "
+            "quaternion: then convert the rates to body axes first; otherwise take "
+            "--choose 1."
         )
     return (
         f"The numbers support {count} interpretations equally: choose one, --choose 1 to {count}."
@@ -148,7 +149,7 @@ def _undecided(ranked: Ranked) -> str:
 def reading_lines(reading: TableReading) -> list[str]:
     """Return what each part of a table is in a reading."""
     clock, attitude, gyro = reading.clock, reading.attitude, reading.gyro
-    lines = [f"clock: '{clock.column}' in {clock.unit}, a row each {clock.step:.3g} s."]
+    lines = [f"clock: '{clock.column}' in {clock.unit}, one row every {clock.step:.3g} s."]
     if attitude.sequence:
         unit = "deg" if attitude.degrees else "rad"
         named = ", ".join(
@@ -160,7 +161,7 @@ def reading_lines(reading: TableReading) -> list[str]:
         named = ", ".join(f"'{name}'" for name in attitude.ordered)
         way = "laboratory to body" if attitude.inverse else "body to laboratory"
         lines.append(f"attitude: quaternion w, x, y, z = {named}; it turns {way}.")
-    lines.append(_gyro_line(reading) if gyro else "gyro: none that agrees with the attitude.")
+    lines.append(_gyro_line(reading) if gyro else "gyro: no columns that agree with the attitude.")
     frame = reading.frame
     return [
         *lines,
@@ -176,8 +177,8 @@ def _gyro_line(reading: TableReading) -> str:
         f"{'-' if sign < 0 else ''}'{name}'"
         for name, sign in zip(gyro.columns, gyro.signs, strict=True)
     )
-    unit = gyro.unit or f"{gyro.factor:.4g} rad/s a count, as measured"
-    handed = "" if reading.handed else "; as the columns stand, they are left-handed"
+    unit = gyro.unit or f"{gyro.factor:.4g} rad/s per count, as measured"
+    handed = "" if reading.handed else "; the columns in this order are left-handed"
     return f"gyro: x, y, z = {named}; {unit}{handed}."
 
 
@@ -189,8 +190,8 @@ def evidence_lines(reading: TableReading) -> list[str]:
     if reading.gyro is not None:
         share = 1 - reading.gyro.misfit
         lines.append(
-            f"gyro: {share:.1%} of its variation and the attitude's over {reading.gyro.spans} "
-            "spans is the same turning."
+            f"gyro: {share:.1%} of its variation agrees with the attitude's rotation "
+            f"over {reading.gyro.spans} spans."
         )
     if reading.zero is not None and reading.zero.is_clear:
         lines.append(_zero_line(reading.zero))
@@ -222,13 +223,18 @@ def unchecked(
         return ()
     if testbed is None or testbed.tilt_limit >= pi:
         return (
-            "not checked: whether the laboratory's axis that is taken as up is vertical. An "
-            "accelerometer in the table shows it; --testbed shows it roughly, by the stop.",
+            (
+                "not checked: whether the laboratory axis taken as up is vertical. An "
+                "accelerometer in the table would show it; --testbed checks it roughly, "
+                "by the tilt limit."
+            ),
         )
     stop = degrees(max(testbed.tilt_limit, LEANS))
     return (
-        f"not checked: whether the laboratory is tilted by less than {stop:.0f} deg: only the "
-        "stop of the platform shows it here; an accelerometer in the table shows more.",
+        (
+            f"not checked: a laboratory tilt below {stop:.0f} deg: only the platform's "
+            "tilt limit bounds it here; an accelerometer would measure it."
+        ),
     )
 
 
@@ -236,8 +242,8 @@ def _zero_line(zero: GyroZero) -> str:
     rates = ", ".join(f"{degrees(rate):.3g}" for rate in zero.rate)
     sd = ", ".join(f"{degrees(sd):.1g}" for sd in zero.sd)
     return (
-        f"gyro's zero: at rest it reports {rates} deg/s about x, y, z of the attitude (sd {sd}); "
-        "`identify` seeks it."
+        f"gyro bias: at rest it reports {rates} deg/s about x, y, z of the attitude "
+        f"(sd {sd}); `identify` estimates it."
     )
 
 
@@ -246,9 +252,9 @@ def assumed_line(reading: TableReading) -> str:
     lab, body = reading.frame.lab_up, reading.frame.body_up
     other = (_opposite(lab), _opposite(body))
     return (
-        f"taken for granted: {lab} of the laboratory points up. In tables of flight (NED) it "
-        f'points down: there a map (--write-map) has lab_up = "{other[0]}", and a body whose '
-        f'upright axis is "{other[1]}".'
+        f"assumed: {lab} of the laboratory points up. In flight data (NED) it points "
+        f'down: then set lab_up = "{other[0]}" in a map (--write-map), with a body '
+        f'whose upright axis is "{other[1]}".'
     )
 
 

@@ -159,7 +159,7 @@ def wave_words(wave: SquareWave, testbed: Testbed) -> str:
     size = (f"{wave.amplitude / MN_M:+.3g} mN m" if wheel
             else f"{wave.amplitude / DEG:+.3g} deg/s")  # fmt: skip
     turns = f"every {wave.period / 2:g} s, first at {wave.period * (0.5 - wave.phase):g} s"
-    return f"drive {wave.device} by {size}, and turn it round {turns}"
+    return f"drive {wave.device} by {size}, and reverse it {turns}"
 
 
 def limits_line(promise: Promise, request: Request, who: str) -> str:

@@ -166,8 +166,11 @@ def too_weak(testbed: Testbed, angle: float) -> InputError:
     height = offsets.LIKELY * offsets.height_sd(testbed)
     return InputError(
         testbed.name,
-        f"{have.torque:.3g} N m and {have.momentum:.3g} N m s of wheels or gyros to count on, "
-        f"and a centre of mass that may be {offset / UM:.3g} um off sideways and "
-        f"{height / UM:.3g} um along up: a cone of {np.degrees(max(angle, 0.0)):.2g} deg",
+        (
+            f"{have.torque:.3g} N m and {have.momentum:.3g} N m s of wheels or gyros "
+            f"available, and a centre of mass that may be {offset / UM:.3g} um off "
+            f"sideways and {height / UM:.3g} um along up: a cone of "
+            f"{np.degrees(max(angle, 0.0)):.2g} deg"
+        ),
         f"{np.degrees(NARROWEST):.2g} deg: a coarse balance first, or stronger devices",
     )

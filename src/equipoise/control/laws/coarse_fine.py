@@ -146,13 +146,21 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 LAW = Law(
     LawCard(
         "coarse_fine",
-        "A first measurement and a coarse move, then further ones and small moves, always hanging.",
-        "RAMBO, engrXiv 7342, as far as its abstract says",
+        (
+            "A first measurement and a coarse move, then further measurements and small "
+            "moves, always hanging."
+        ),
+        "RAMBO, engrXiv 7342, from its abstract",
         ("masses", "attitude", "gyro"),
-        "10 um below the pivot at least, on purpose; 1 um of that, 0.1 um sideways, and 4 % of a "
-        "lower target's depth; swing, as nothing damps it; sag but for small tilts",
-        "open loop: always. It must hang within 10 deg of level at first: what swing there is "
-        "grows by a half on the way up",
+        (
+            "10 um below the pivot on purpose, and 1 um of height error; 0.1 um sideways; "
+            "4 % of the depth of a lower target; swing, which nothing damps; sag beyond "
+            "small tilts"
+        ),
+        (
+            "open loop: always stable. The platform must hang within 10 deg of level at "
+            "first: the swing grows by half while the centre of mass rises"
+        ),
         PERIOD,
     ),
     begin,

@@ -34,7 +34,7 @@ PERIOD = 0.1  # s, chosen: a servo's beat
 
 CARD = LawCard(
     "follow",
-    "Moves masses with the tilt and the estimated drift, while wheels hold the platform level.",
+    ("Moves masses with the tilt and the estimated drift, while wheels hold the platform level."),
     "Equipoise; the sag that dynamics.sag_trim cannot trim",
     ("masses", "momentum", "gyro", "attitude"),
     "the errors of the estimated sag and drift",

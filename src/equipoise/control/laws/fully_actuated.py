@@ -254,14 +254,22 @@ def why_still(state: State, past: float, params: Params) -> tuple[Reason, ...]:
 LAW = Law(
     LawCard(
         "fully_actuated",
-        "Wheels or gyros lead gravity round a cone, and masses move until no torque is missing.",
+        (
+            "Wheels or gyros turn the gravity direction around a cone; masses move until "
+            "the wheels need no torque."
+        ),
         "Kim & Agrawal 2009; da Silva 2021 section 4.2, Eq. 42 with erratum R24",
         ("masses", "momentum", "gyro", "attitude"),
-        "the part along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
-        "dJ (4 um for one inertia_sd); an offset of 0.8 um, by the masses' way in a turn",
-        "w_a T up to 0.1, w_a |r| / v up to 1; the torque of |r| sideways, and its momentum in "
-        "2 zeta / w_a, within the devices'. It is as slow as they are weak, and says at its start "
-        "how long it should take",
+        (
+            "the component along gravity unless gravity sweeps; along up -dJ W^2 / (m g) "
+            "for an inertia error dJ (4 um for one inertia_sd); 0.8 um from the travel of "
+            "the masses within a turn"
+        ),
+        (
+            "w_a T up to 0.1 and w_a |r| / v up to 1; the sideways torque of |r|, and its "
+            "momentum in 2 zeta / w_a, within the devices' limits. Weaker devices make it "
+            "slower; it states the expected duration at the start"
+        ),
         PERIOD,
     ),
     begin,

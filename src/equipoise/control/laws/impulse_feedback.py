@@ -72,12 +72,17 @@ FLAT = 0.3  # chosen: singular values below this share are the direction along g
 
 CARD = LawCard(
     name="impulse_feedback",
-    idea="Jets hold the platform at several tilts; their impulse there measures the unbalance.",
+    idea="Jets hold the platform at several tilts; their impulse measures the unbalance.",
     source="Hatcher and Young 1968 (da Silva et al. 2021, section 4), with an attitude schedule",
     needs=("masses", "jets", "gyro", "attitude"),
-    leaves="a steady torque of air or bearing, which it takes for unbalance; height five times "
-    "less sharp than the rest",
-    stable="0 < k < 1, whatever the masses' speed; jets with twice the weight of a likely offset",
+    leaves=(
+        "a steady torque of air or bearing, which is indistinguishable from unbalance; "
+        "height is five times less accurate than the other axes"
+    ),
+    stable=(
+        "0 < k < 1, whatever the speed of the masses; jets with twice the weight torque "
+        "of the expected offset"
+    ),
     period=PERIOD,
 )
 
@@ -159,7 +164,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return where the law begins; InputError where jets cannot hold the platform."""
     torque, weight = weakest_jet(testbed), likely_weight(testbed)
     if torque < SPARE * weight:
-        wanted = f"{SPARE * weight:.3g} N m, twice the weight of a likely offset"
+        wanted = f"{SPARE * weight:.3g} N m, twice the weight torque of the expected offset"
         raise refuse(f"jets of {torque:.3g} N m about some axis", wanted)
     reach = greatest_shift(testbed)
     if reach == 0:
@@ -169,7 +174,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     dead = max(DEAD, least / float(np.diag(inertia).min()))
     if dead > COARSEST * FASTEST:
         wanted = f"{COARSEST * FASTEST:.2g} rad/s or less"
-        raise refuse(f"least pulses that turn it by {dead:.2g} rad/s", wanted)
+        raise refuse(f"minimum pulses that turn the platform by {dead:.2g} rad/s", wanted)
     verticals = schedule(testbed.up, min(TILT, SHARE * testbed.tilt_limit))
     step = sum(m.mass * m.resolution for m in testbed.masses) / testbed.body.mass
     params = Params(testbed.body.mass, inertia, verticals, dead, reach, step, target)

@@ -82,11 +82,20 @@ def step(state: State, sample: Sample | Estimate, target: Vector3) -> tuple[Stat
 LAW = Law(
     LawCard(
         "ivanov_25s",
-        "A Kalman filter of attitude, rate and com on the camera; every 25 s a move to the target.",
+        (
+            "A Kalman filter estimates attitude, rate and com from the camera; every 25 s "
+            "the masses move to the target."
+        ),
         "Ivanov et al. 2021, section 5, Eq. 5.1 with errata I7-I11",
         ("masses", "attitude"),
-        "of the height as much as J is wrong, what it drifts between moves, the motor steps; swing",
-        "open loop: always. It must stay within the tilt limit for 25 s on its own",
+        (
+            "a height error proportional to the error of J; drift between moves; the "
+            "motor steps; swing"
+        ),
+        (
+            "open loop: always stable. The platform must stay within its tilt limit for "
+            "25 s without control"
+        ),
         PERIOD,
     ),
     begin,

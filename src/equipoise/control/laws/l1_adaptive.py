@@ -66,12 +66,17 @@ MARGIN = 2.0  # chosen: the platform's swing may be this much faster or slower, 
 
 CARD = LawCard(
     name="l1_adaptive",
-    idea="A predictor of tilt and rate learns the unbalance torque; masses cancel it, filtered.",
+    idea=(
+        "A predictor of tilt and rate adapts to the unbalance torque; masses cancel its "
+        "filtered estimate."
+    ),
     source="Cao and Hovakimyan 2006, 2008; Xuan 2016, Hua 2018 (da Silva et al. 2021, section 4)",
     needs=("masses", "gyro", "attitude"),
-    leaves="the height, which only the measurements at the end determine, by the inertia",
-    stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin "
-    "to 17 deg/s, half to twice the nominal stiffness",
+    leaves="the height, which only the final measurements determine, limited by the inertia",
+    stable=(
+        "hanging; sensors and fine masses with up to 0.8 s of delay at 14 kg and steps of "
+        "0.25 s; spin to 17 deg/s; half to twice the nominal stiffness"
+    ),
     period=PERIOD,
 )
 
@@ -181,7 +186,7 @@ def closed(axis: Axis, frequency: float, late: int) -> Square:
 
 def refuse(found: str) -> InputError:
     """Return the error of a testbed on which the law is not stable."""
-    return InputError("law l1_adaptive", found, "a slower swing, surer mass properties")
+    return InputError("law l1_adaptive", found, "a slower swing, or better-known mass properties")
 
 
 def check(axis: Axis, plant: pendulum.Hanging, testbed: Testbed) -> None:

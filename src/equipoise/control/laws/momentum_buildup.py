@@ -303,15 +303,21 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 LAW = Law(
     LawCard(
         "momentum_buildup",
-        "Holds tilted attitudes by wheels and estimates the centre of mass, sag and drift from "
-        "their momentum.",
+        (
+            "Holds tilted attitudes by wheels; estimates the centre of mass, sag and "
+            "drift from their momentum."
+        ),
         "Equipoise; Hatcher and Young 1968 with wheels for jets",
         ("masses", "momentum", "gyro", "attitude"),
-        "the sag that no centre of mass trims, 12 uN m rms within 20 deg for 25 um, and drift "
-        "after the last move, unless masses follow both; momentum about the vertical. A torque of "
-        "the air that keeps its sign for minutes is taken for an offset",
-        "steps of 0.1 s; offsets whose weight is twice what the wheels can turn against, 75 um at "
-        "14 kg and 5 mN m, on either side of the pivot; wheels of 20 mN m s there",
+        (
+            "sag, which masses at rest cannot trim: 12 uN m rms within 20 deg for 25 um; "
+            "drift after the last move, unless masses follow both; momentum about the "
+            "vertical. Air torque of one sign over minutes is attributed to an offset"
+        ),
+        (
+            "steps of 0.1 s; offsets up to half of what the wheels can hold: 75 um at 14 "
+            "kg and 5 mN m, above or below the pivot; wheels of 20 mN m s there"
+        ),
         PERIOD,
         follows=True,
     ),

@@ -91,7 +91,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     holds = min(can.torque, can.momentum / MET) / testbed.weight
     if holds < offset:
         found = f"wheels or gyros that hold {holds / UM:.3g} um across up for {MET:g} s"
-        raise InputError(NAME, found, f"{offset / UM:.3g} um, or a coarse balance first")
+        raise InputError(NAME, found, f"at most {offset / UM:.3g} um, or a coarse balance first")
     pace = slews.pace_for(float(np.linalg.eigvalsh(testbed.body.inertia_P)[-1]), can)
     turns = (*attitudes(testbed) * ROUNDS, LEVEL)
     params = Params(testbed, adaptation.constants_of(testbed), pace, target, turns)
@@ -152,15 +152,22 @@ def sent(state: State, t: float, params: Params) -> State:
 LAW = Law(
     LawCard(
         NAME,
-        "Wheels or gyros track turns by a torque whose parameters, inertia and centre of mass, "
-        "adapt; masses follow the centre of mass found.",
+        (
+            "Wheels or gyros track turns with a control torque whose parameters, inertia "
+            "and centre of mass, adapt; masses follow the estimated centre of mass."
+        ),
         "Wright 2006 (da Silva 2021 section 3, reference 34); Slotine and Li 1987, 1989",
         ("masses", "momentum", "gyro", "attitude"),
-        "0.1 um across up, and 1.2 um of the height on a deck that sags by 25 um, which it takes "
-        "for stiff; torques of air and bearing that last for 20 s; drift after the end; inertia "
-        "across up to no more than 3 %, as the turns are slow",
-        "K T / J of 0.1; wheels or gyros that hold what is likely across up for 10 s, until masses "
-        "have met it; an inertia stated 5 % off",
+        (
+            "0.1 um across up, and 1.2 um of height on a deck that sags by 25 um, since "
+            "the law assumes a stiff one; air and bearing torques that last 20 s; drift "
+            "after the end; inertia across up to no better than 3 %, since the turns are "
+            "slow"
+        ),
+        (
+            "K T / J of 0.1; wheels or gyros that hold the expected offset across up for "
+            "10 s, until masses have corrected it; a stated inertia within 5 %"
+        ),
         PERIOD,
     ),
     begin,

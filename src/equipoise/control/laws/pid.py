@@ -69,12 +69,17 @@ Pair = tuple[tuning.Gains, tuning.Gains]  # of both axes
 
 CARD = LawCard(
     name="pid",
-    idea="Tilt, its integral and the gyro's rate move the masses; a relay finds the gains.",
+    idea=(
+        "Tilt, its integral and the gyro rate drive the masses; a relay experiment tunes the gains."
+    ),
     source="Ziegler and Nichols 1942; Astrom and Hagglund 1984; da Silva et al. 2021, section 4",
     needs=("masses", "gyro", "attitude"),
-    leaves="the height, which only the measurements at the end determine, by the inertia",
-    stable="hanging; sensors and fine masses up to 0.6 s late at 14 kg and steps of 0.25 s, spin "
-    "to 17 deg/s; masses of 1.4 um/s too; a swing beyond what masses can follow is damped slowly",
+    leaves="the height, which only the final measurements determine, limited by the inertia",
+    stable=(
+        "hanging; sensors and fine masses with up to 0.6 s of delay at 14 kg and steps of "
+        "0.25 s; spin to 17 deg/s; masses of 1.4 um/s too; a swing larger than masses can "
+        "follow is damped slowly"
+    ),
     period=PERIOD,
 )
 
@@ -117,8 +122,10 @@ def loop_of(plant: pendulum.Hanging, axis: int) -> tuning.Loop:
     if relay < STEPS * plant.step or relay <= 0:
         raise InputError(
             "law pid",
-            f"masses that shift the centre of mass by {plant.slew / UM:.3g} um/s in steps of "
-            f"{plant.step / UM:.3g} um, {delay:.2g} s late",
+            (
+                f"masses that shift the centre of mass by {plant.slew / UM:.3g} um/s in "
+                f"steps of {plant.step / UM:.3g} um, with {delay:.2g} s of delay"
+            ),
             f"{STEPS} steps in {LATE * lead:.2g} s, a quarter of a hanging swing's radian",
         )
     return tuning.Loop(float(plant.gain[axis]), frequency, lead, delay, plant.slew, relay)
@@ -134,9 +141,14 @@ def check(loop: tuning.Loop, gains: tuning.Gains, delay: float) -> None:
         if size >= 1:
             raise InputError(
                 "law pid",
-                f"a loop that is unstable at {factor:.2g} times its gains, sampled every "
-                f"{PERIOD} s and {delay:.2g} s late",
-                "sensors less late, fine masses that soon make up a coarse step, a slower platform",
+                (
+                    f"a loop that is unstable at {factor:.2g} times its gains, with a "
+                    f"sampling period of {PERIOD} s and {delay:.2g} s of delay"
+                ),
+                (
+                    "sensors with less delay, fine masses that quickly correct a coarse "
+                    "step, or a slower platform"
+                ),
             )
 
 

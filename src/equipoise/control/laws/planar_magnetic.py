@@ -256,13 +256,18 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 LAW = Law(
     LawCard(
         "planar_magnetic",
-        "Masses integrate the tilt away while coils damp, and free swings determine the height.",
-        "Bahu and Modenini 2020 and their note of 2022, as far as their abstracts say",
+        ("Masses integrate the tilt to zero while coils damp; free swings determine the height."),
+        "Bahu and Modenini 2020 and their note of 2022, from their abstracts",
         ("masses", "magnetorquers", "attitude", "gyro"),
-        "the height, to 1 um by the swing of a minute; sideways 0.1 to 0.3 um; sag but "
-        "for small tilts. Coils brake no turn about the field",
-        "hanging; the integral yields to any swing that coils cannot hold. It is as slow as coils "
-        "are weak: 7 to 16 min with 0.25 mN m at 14 kg, 11 min to more than 20 with 0.06 mN m",
+        (
+            "the height, to 1 um by a swing of one minute; sideways 0.1 to 0.3 um; sag "
+            "beyond small tilts. Coils give no torque about the field"
+        ),
+        (
+            "hanging; the integral pauses during swings that the coils cannot hold. Weak "
+            "coils make it slow: 7 to 16 min with 0.25 mN m at 14 kg, 11 to more than 20 "
+            "min with 0.06 mN m"
+        ),
         PERIOD,
     ),
     begin,

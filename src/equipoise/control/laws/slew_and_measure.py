@@ -228,13 +228,18 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 LAW = Law(
     LawCard(
         "slew_and_measure",
-        "Turns far by wheels or gyros, and fits the whole record with the momentum they stored.",
+        ("Slews by wheels or gyros, and fits the whole record including their momentum."),
         "Lee et al. Eqs. 1-3 and sections IV, V, with errata L1-L4",
         ("masses", "momentum", "gyro", "attitude"),
-        "0.1 um and what drifts after the last move; half a um of the height on a deck that sags "
-        "by 25 um; swing after it",
-        "steps of 0.1 s; wheels or gyros that store m g times half a um while the turns last, two "
-        "minutes; it swings freely first where they cannot hold the offset's sd, hanging",
+        (
+            "0.1 um, and drift after the last move; 0.5 um of height on a deck that sags "
+            "by 25 um; swing at the end"
+        ),
+        (
+            "steps of 0.1 s; wheels or gyros that store the momentum of an offset of 0.5 "
+            "um over the slews, two minutes; if they cannot hold one sd of the offset, a "
+            "free swing, hanging, comes first"
+        ),
         PERIOD,
     ),
     begin,

@@ -14,7 +14,7 @@ and gets at most about SWING of the way to its limit during the measurement. Bef
 the centre of mass is lowered by twice its sd. The platform is then no inverted pendulum while the
 masses hold still, and ends a measurement near where it began, or swings.
 
-Every round begins anew with the reported shift: rh(0) = -shift across up. Published rounds gain
+Every round restarts with the reported shift: rh(0) = -shift across up. Published rounds gain
 from one another only by the smaller height; begun so, each leaves |r_up| / (|r_up| + X) of the
 offset of the last one. Rounds end when the measurement finds no more than a motor step, or no gain.
 
@@ -112,7 +112,7 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
     up, quantum, reach = testbed.up, offsets.coarsest_step(testbed), greatest_shift(testbed)
     if float(np.linalg.norm(offsets.across(up) @ target)) > LEAST:
         raise InputError(
-            "target", "a centre of mass aside of up", "one along up: masses settle there"
+            "target", "a centre of mass off the up axis", "one on the up axis: masses settle there"
         )
     w = feedback.frequency_for(testbed, PERIOD)
     gains = feedback.gains_at(testbed, w, integral * w, PERIOD)
@@ -177,7 +177,7 @@ def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command
 
 
 def held_now(state: State, sample: Sample, params: Params) -> tuple[Vector3, Vector3]:
-    """Return rh (m), begun anew at the first sample of a round, and what is still owed (m)."""
+    """Return rh (m), restarted at the first sample of a round, and what is still owed (m)."""
     if state.gravity is None or state.requested is None or state.owed is None:
         return state.held, feedback.owed(params.gains, sample.gravity)
     late = float(np.linalg.norm(state.requested - sample.shift)) > params.late

@@ -33,7 +33,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
             testbed.name,
             f"a centre of mass that may be {height / UM:.3g} um above P, where Routh's condition "
             f"has a margin of {margin:.2g}",
-            f"{MARGIN} or more: lower it first, or a firmer com_sd",
+            (f"{MARGIN} or more: lower the centre of mass first, or state a smaller com_sd"),
         )
     return state, params
 
@@ -41,7 +41,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 LAW = Law(
     LawCard(
         "underactuated_integral",
-        "As underactuated, with an integral of the tilt: nothing is left across up.",
+        ("As underactuated, with an integral of the tilt that removes the offset across up."),
         "Equipoise; Chesi 2014 for the rest, da Silva 2021 Eqs. 39-41 with errata R20-R23",
         ("masses", "gyro", "attitude"),
         "a motor step of the masses; spin about up; r_up as underactuated",

@@ -65,7 +65,7 @@ def within_reach(testbed: Testbed) -> None:
         raise InputError(
             testbed.name,
             f"{about_masses(testbed)}: they may not reach so far",
-            "a coarse balance first, more mass or travel, or a firmer com_sd",
+            "a coarse balance first, more mass or travel, or a smaller com_sd",
         )
 
 
@@ -81,9 +81,11 @@ def greatest_frequency(testbed: Testbed, least: float, share: float, period: flo
         raise InputError(
             testbed.name,
             about_masses(testbed),
-            f"a loop that is faster than {least:.2g} rad/s, for the tilt limit, and slower than "
-            f"{most:.2g} rad/s, for masses and samples: a coarse balance first, faster or heavier "
-            "masses, or a firmer com_sd",
+            (
+                f"a loop faster than {least:.2g} rad/s, for the tilt limit, and slower "
+                f"than {most:.2g} rad/s, for masses and samples: a coarse balance first, "
+                "faster or heavier masses, or a smaller com_sd"
+            ),
         )
     return most
 

@@ -1,4 +1,4 @@
-"""Along the rows: predict over every step to a row, correct by it; a new piece begins anew.
+"""Along the rows: predict over every step to a row, correct by it; a new piece restarts.
 
 Behind a gap attitude and rate are not known: their covariance is what it was before the first row,
 their correlation with the parameters nought; the parameters stay, and have walked. The first row of

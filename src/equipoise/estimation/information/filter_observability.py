@@ -18,7 +18,7 @@ show to half a natural size or better, as in ``observability``.
     reduced [w, r_z]       gyro, attitude given                  3 of 4 where g is along z
 
 Where small changes of the state grow without bound, as those of a spin that the given attitude does
-not steady, the sensitivities are begun anew each time they have grown ten thousandfold, and what
+not steady, the sensitivities are restarted each time they have grown ten thousandfold, and what
 one such stretch shows of the next by way of the state is given up. That may take something from a
 rank with noise, and nothing from one without.
 

@@ -12,8 +12,10 @@ METHOD = filter_method(
         "extended Kalman filter; J is considered",
         "da Silva 2021 Eqs. 32-34 with erratum R14",
         "a gyro and a camera; J with its sd",
-        "com better than J, as free motion shows their ratio; com along gravity until it has "
-        "tilted",
+        (
+            "com better than J, since free motion determines only their ratio; com along "
+            "gravity until it has tilted"
+        ),
         "wandering",
     ),
     KIND,

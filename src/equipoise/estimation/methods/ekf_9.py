@@ -12,8 +12,10 @@ METHOD = filter_method(
         "multiplicative extended Kalman filter; J is considered",
         "Ivanov 2021 section 5 with errata I7-I11",
         "a camera; J with its sd",
-        "com better than J, as free motion shows their ratio; com along gravity until it has "
-        "tilted",
+        (
+            "com better than J, since free motion determines only their ratio; com along "
+            "gravity until it has tilted"
+        ),
         "wandering",
     ),
     KIND,

@@ -7,7 +7,7 @@ from equipoise.estimation.regression.linear_method import Linear, method
 METHOD = method(
     balance(
         "energy",
-        "energy balance, one equation a time",
+        "energy balance, one equation per sample",
         "least squares",
         "Tanygin and Williams 1997; Schwartz and Hall 2004",
     ),

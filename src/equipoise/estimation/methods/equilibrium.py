@@ -7,11 +7,14 @@ from equipoise.model.method_card import Card
 METHOD = Method(
     Card(
         "equilibrium",
-        "equilibrium points: com hangs under P at every rest of the masses",
+        "equilibrium points: com hangs below P whenever the platform rests",
         "least squares on directions",
-        "long known; da Silva 2021 section 3 names it",
-        "a camera, and two moves to rests that are not in line",
-        "inertia; anything from a single rest; useless near balance, where nothing rests",
+        "long known; named in da Silva 2021 section 3",
+        "a camera, and two moves to resting points that are not collinear",
+        (
+            "inertia; anything from a single resting point; not applicable near balance, "
+            "where the platform does not come to rest"
+        ),
         "rests",
     ),
     rest_positions.estimate,

@@ -9,10 +9,10 @@ METHOD = filter_method(
     Card(
         "kf_simplified",
         "simplified Euler equation: J diagonal, no gyroscopic torque; w and com",
-        "Kalman filter; J and what is left out are considered",
+        "Kalman filter; J and neglected terms are considered",
         "da Silva 2021 Eqs. 28-31 with errata R11-R13; Young 1998",
         "a gyro and a camera; J with its sd",
-        "com along gravity until it has tilted; anything at all in fast motion",
+        "com along gravity until it has tilted; not valid in fast motion",
         "wandering",
     ),
     KIND,

@@ -9,7 +9,7 @@ METHOD = method(
     balance(
         "momentum_corrected",
         "momentum integral in body axes, free constants",
-        "least squares less the bias of a noisy regressor",
+        "least squares with the bias of a noisy regressor removed",
         "Fuller 1987 section 2.2 on da Silva 2021 Eqs. 16-21",
     ),
     Linear(body_axes, corrected, needs_noise=True),

@@ -7,7 +7,7 @@ from equipoise.estimation.regression.linear_method import Linear, method
 METHOD = method(
     balance(
         "momentum_laboratory",
-        "momentum integral in laboratory axes, where no gyroscopic term is left",
+        "momentum integral in laboratory axes, without a gyroscopic term",
         "least squares",
         "design of this package; after Kim and Agrawal 2009",
     ),

@@ -9,7 +9,7 @@ METHOD = method(
     balance(
         "momentum_possible",
         "momentum integral in body axes, free constants",
-        "least squares among bodies that can exist, log-Cholesky",
+        "least squares over physically consistent inertia, log-Cholesky",
         "Wensing 2018; Rucker and Wensing 2022; Keim 2006",
     ),
     Linear(body_axes, possible),

@@ -10,7 +10,7 @@ METHOD = method(
         "momentum_weighted",
         "momentum integral in body axes, free constants",
         "weighted least squares",
-        "da Silva 2021 Eq. 17; weights by what is left",
+        "da Silva 2021 Eq. 17; weights from the residuals",
     ),
     Linear(body_axes, weighted),
 )

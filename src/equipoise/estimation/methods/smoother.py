@@ -21,12 +21,14 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
 METHOD = Method(
     Card(
         "smoother",
-        "motion integrated, J always possible; the centre of mass walks, by what the record shows",
+        ("integrated motion, J physically consistent; com is a random walk of estimated size"),
         "maximum a posteriori, Levenberg-Marquardt; equals a fixed-interval smoother",
-        "Rauch, Tung and Striebel 1965, about the trajectory fit of Ivanov 2021 section 3",
+        ("Rauch, Tung and Striebel 1965, around the trajectory fit of Ivanov 2021 section 3"),
         "a camera or a gyro",
-        "what trajectory cannot see; drift from other slow torques; drift along gravity without "
-        "tilt; a drift at a constant rate is taken for a walk",
+        (
+            "as trajectory; cannot separate drift from other slow torques; drift along "
+            "gravity without tilt; a drift of constant rate is modelled as a random walk"
+        ),
         "moved",
         ("term", "hold", "prior", "robust"),
     ),

@@ -9,8 +9,8 @@ METHOD = method(
         "torque_kalman",
         "torque balance of rates behind an EKF, slopes by an even Savitzky-Golay filter",
         "least squares",
-        "Kim, Yang and Lee 2016 (EKF and SGF), as far as its abstract says",
-        "; a first guess of J and com with their sd",
+        "Kim, Yang and Lee 2016 (EKF and SGF), from its abstract",
+        "; an initial J and com with their sd",
     ),
     Linear(kalman_torque, knows_inertia=True),
 )

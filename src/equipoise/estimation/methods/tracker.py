@@ -96,10 +96,10 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
 METHOD = Method(
     Card(
         "tracker",
-        "motion of attitude, rate, J, com and gyro bias, contacts noticed",
+        "motion of attitude, rate, J, com and gyro bias; contacts are detected",
         "multiplicative extended Kalman filter",
         "Ivanov 2021 section 5 with errata I7-I11; inertia in the state",
-        "a camera; a first guess of J and com with their sd",
+        "a camera; an initial J and com with their sd",
         "com along gravity until it has tilted; scale of J and com before a known change",
         "drifting",
     ),

@@ -31,12 +31,15 @@ def params_of(testbed: Testbed, options: Options) -> Params:
 METHOD = Method(
     Card(
         "trajectory",
-        "motion integrated from free first attitude and rate, J always possible",
+        ("integrated motion with free initial attitude and rate, J physically consistent"),
         "maximum likelihood, Levenberg-Marquardt",
         "Ivanov 2021 section 3 with errata I1-I6, I15",
         "a camera or a gyro",
-        "scale of J and com without a known change; com along gravity without tilt; J_zz and "
-        "products without spin about more than one axis; heading without a camera",
+        (
+            "scale of J and com without a known change; com along gravity without tilt; "
+            "J_zz and products without rotation about more than one axis; heading without "
+            "a camera"
+        ),
         "moved",
         ("term", "hold", "prior", "robust"),
     ),

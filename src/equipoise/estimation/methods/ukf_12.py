@@ -11,7 +11,7 @@ METHOD = filter_method(
         "Euler's equation with known momentum and torque; w, J and com",
         "unscented Kalman filter, 2n points",
         "da Silva 2021 Eq. 35; unscented points as in Simon 2006",
-        "a gyro and a camera; a known torque, momentum or move; a first guess of J and its sd",
+        ("a gyro and a camera; a known torque, momentum or move; an initial J with its sd"),
         "scale of J and com before a known change",
         "played",
     ),

@@ -23,10 +23,12 @@ METHOD = filter_method(
         "unscented Kalman filter, 2n points; com across up and J are considered",
         "Chesi 2014, second step; da Silva 2021 section 4.1",
         "a gyro and a camera; com across up balanced and known (com_sd); J with its sd",
-        "com across up, which it takes from the testbed: each um that com_sd does not cover moves "
-        f"com along up by {STRAYS[0]:g} to {STRAYS[1]:g} um / sin(rms tilt), 6 to 17 um at 6 deg; "
-        "what com_sd covers is in the interval, and beyond some um com along up stays as the "
-        "testbed has it; com along gravity until it has tilted",
+        (
+            "com across up, which is taken from the testbed: each um beyond com_sd shifts "
+            f"com along up by {STRAYS[0]:g} to {STRAYS[1]:g} um / sin(rms tilt), 6 to 17 "
+            "um at 6 deg; the interval includes com_sd, and if it exceeds some um, com "
+            "along up keeps its prior; com along gravity until it has tilted"
+        ),
         "levelled",
     ),
     KIND,

@@ -12,8 +12,10 @@ METHOD = filter_method(
         "unscented Kalman filter, 2n points; J is considered",
         "da Silva 2021 section 3.2; unscented points as in Simon 2006",
         "a gyro and a camera; J with its sd",
-        "com better than J, as free motion shows their ratio; com along gravity until it has "
-        "tilted",
+        (
+            "com better than J, since free motion determines only their ratio; com along "
+            "gravity until it has tilted"
+        ),
         "wandering",
     ),
     KIND,

@@ -12,8 +12,10 @@ METHOD = filter_method(
         "unscented Kalman filter, 2n points, multiplicative attitude; J is considered",
         "Ivanov 2021 section 5 with errata I7-I11; unscented points as in Simon 2006",
         "a camera; J with its sd",
-        "com better than J, as free motion shows their ratio; com along gravity until it has "
-        "tilted",
+        (
+            "com better than J, since free motion determines only their ratio; com along "
+            "gravity until it has tilted"
+        ),
         "wandering",
     ),
     KIND,

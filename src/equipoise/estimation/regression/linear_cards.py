@@ -2,14 +2,14 @@
 
 from equipoise.model.method_card import Card
 
-SENSORS = "a camera or a gyro; tilt better known with a camera"
+SENSORS = "a camera or a gyro; tilt is more accurate with a camera"
 
 
 def balance(name: str, formulation: str, solver: str, source: str, also: str = "") -> Card:
     """Return the card of a method on the whole balance; ``also``: what it needs beside sensors."""
     hidden = (
-        "scale of J and com without a known change; J_zz and products without spin "
-        "about more than one axis"
+        "scale of J and com without a known change; J_zz and products without "
+        "rotation about more than one axis"
     )
     needs = SENSORS + also
     return Card(name, formulation, solver, source, needs, hidden, "driven", ("term", "hold"))
@@ -17,6 +17,6 @@ def balance(name: str, formulation: str, solver: str, source: str, also: str = "
 
 def simplified_model(name: str, formulation: str, solver: str, source: str) -> Card:
     """Return the card of a method on Euler's simplified model."""
-    needs = SENSORS + "; inertia, taken from the testbed (its sd is counted)"
+    needs = SENSORS + "; inertia from the testbed (its sd is included)"
     hidden = "J; com along gravity without tilt; com better than J is known"
     return Card(name, formulation, solver, source, needs, hidden, "free", ("term", "hold"))

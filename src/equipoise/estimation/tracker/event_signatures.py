@@ -66,7 +66,7 @@ def new_watch() -> Watch:
 
 @part
 def forget(watch: Watch) -> None:
-    """Begin anew."""
+    """Restart."""
     watch.counts[:] = 0
     watch.X[:] = 0.0
 

@@ -38,10 +38,10 @@ from equipoise.model.reasons.actuator_faults import ActuatorFault, ActuatorRemar
 from equipoise.model.reasons.reason import Number, Reason
 from equipoise.model.units import MS
 
-BEGINNING = 3.0  # s, attended, chosen: a microcontroller begins anew when its port is opened
+BEGINNING = 3.0  # s, attended, chosen: a microcontroller restarts when its port is opened
 REPEATED = 0.5  # s, chosen: between two questions of the same, who it is and what it has
 STALE = 0.5  # s, attended, chosen: without a report, or an order taken, while it works
-TIRED = 0.5 * 2**32 * MS  # s: by which a clock of 32 bits goes back when it begins anew
+TIRED = 0.5 * 2**32 * MS  # s: by which a clock of 32 bits goes back when it restarts
 SHOWN = 60  # bytes, chosen: of the last line, for people
 HELLO, HALT, BEAT = checked(f'{{"hello":{VERSION}}}'), checked('{"halt":1}'), checked('{"beat":1}')
 UNASKED = {
@@ -65,7 +65,7 @@ class DeviceLines(ActuatorDriver):
         self._begin()
 
     def opened(self, t: float) -> None:
-        """Begin anew."""
+        """Restart."""
         self.counts = Counts()
         self._lines.cleared()
         self._begin()
@@ -257,7 +257,7 @@ class DeviceLines(ActuatorDriver):
         self.begun += 1
 
     def _fault(self, code: ActuatorFault, *names: str, **numbers: Number) -> None:
-        """Let every device rest, if halts still reach it; nothing is driven until it began anew."""
+        """Let every device rest, if halts still reach it; nothing is driven until it restarted."""
         if self.state.activity is not Activity.FAULT:
             fault = Reason(code, names, numbers)
             self.state = replace(ActuatorState(Activity.FAULT), fault=fault)

@@ -32,7 +32,7 @@ DEADMAN, PERIOD, STARTING = 0.5, 0.02, 1.0  # s
 BEGUN, WORKING, HALTED, DIED = 0, 1, 2, 3  # modes
 BROKEN, UNKNOWN, COUNT, BEYOND, RESTING, LONG = 1, 2, 3, 4, 5, 6  # what is refused
 OVER = 1e-6  # relative: what single precision makes of a limit
-TIRED = 1 << 32  # ms: there its clock begins anew
+TIRED = 1 << 32  # ms: there its clock restarts
 
 
 class EmulatedDeviceLines:
@@ -83,7 +83,7 @@ class EmulatedDeviceLines:
     # --- What people do to it ----------------------------------------------------------------
 
     def press_reset(self, t: float) -> None:
-        """Let it begin anew."""
+        """Let it restart."""
         self._rest(BEGUN, t)
         self._begin(t)
 

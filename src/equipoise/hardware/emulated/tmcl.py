@@ -97,7 +97,7 @@ class EmulatedTmcl:
     # --- What people do to it ----------------------------------------------------------------
 
     def press_reset(self) -> None:
-        """Let it begin anew."""
+        """Let it restart."""
         self._boot()
 
     def switch(self, on: bool) -> None:

@@ -10,7 +10,7 @@ from equipoise.model.hardware import Gives
 from equipoise.model.reading import Reading
 
 FROZEN = 0.4  # s, chosen: of the very same values, after which rows count as none
-WRAP = 50  # rows, chosen: more than networks put out of order; beyond it a counter began anew
+WRAP = 50  # rows, chosen: more than networks put out of order; beyond it a counter restarted
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Reading
 
 BEHIND = 1.0  # s, chosen: a capture's clock back by more was set; by less packets changed places
-SKIPPED = 1000  # rows, chosen: a number farther ahead is of a counter that began anew
+SKIPPED = 1000  # rows, chosen: a number farther ahead is of a counter that restarted
 
 
 class Timeless(Exception):

@@ -7,7 +7,7 @@ time. So the line is the one below all arrivals that is nearest to them: through
 of each of the last ``SPANS`` spans, the one of the two outer ones that leaves none below. What it
 cannot see is the least delay itself: rows are late by that.
 
-A stamp that goes back is a clock that began anew; so is a row much earlier than the line, which is
+A stamp that goes back is a clock that restarted; so is a row much earlier than the line, which is
 below all rows, or one so late that no delay explains it. During the first span the line is not
 settled: there a row early by that only begins the count anew.
 """

@@ -58,7 +58,7 @@ class Following:
         self.deviation: Reason | None = None
 
     def begin(self) -> None:
-        """Forget all: the device rests, or its counts began anew."""
+        """Forget all: the device rests, or its counts restarted."""
         self._input, self._last, self._way, self.deviation = 0.0, None, None, None
 
     def given(self, t: float, value: float) -> None:

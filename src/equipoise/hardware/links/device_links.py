@@ -149,7 +149,7 @@ class Links:
                 link.driver.drive(own, t)
 
     def home(self, t: float) -> None:
-        """Let every board find its position, and every actuator rest and begin anew."""
+        """Let every board find its position, and every actuator rest and restart."""
         for link in self.boards:
             link.driver.home(t)
         for link in self.actuators:

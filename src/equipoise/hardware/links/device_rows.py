@@ -40,7 +40,7 @@ class DeviceRows:
         self._last: tuple[float, Floats] | None = None  # s, counted: the row before
 
     def begin(self) -> None:
-        """Forget all: a unit's counts began anew, so no row goes on from one before."""
+        """Forget all: a unit's counts restarted, so no row goes on from one before."""
         self._last = None
         for unit in self._units:
             unit.t.clear()

@@ -30,7 +30,7 @@ class SensorRows:
         self._waited, self._t = 0.0, 0.0  # s, for how long rows may have waited; at the last turn
 
     def opened(self) -> None:
-        """Note that the port has just been opened: numbers and values may begin anew."""
+        """Note that the port has just been opened: numbers and values may restart."""
         self.arrivals = begun_anew(self.arrivals)
 
     def rows(self, readings: Iterable[Reading], t: float, paused: float = 0.0) -> list[Row]:

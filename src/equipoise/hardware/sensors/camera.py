@@ -39,7 +39,7 @@ class Camera(SensorDriver):
         self._parts, self._sight = Parts(), self._anew()
 
     def opened(self) -> None:
-        """Begin anew."""
+        """Restart."""
         super().opened()
         self._parts.cleared()
         self._sight = self._anew()

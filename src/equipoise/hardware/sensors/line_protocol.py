@@ -41,7 +41,7 @@ Numbers = dict[str, float]
 class LineProtocol(SensorDriver):
     """The conversation; settings: ``format``, ``columns``, and a line to ``send`` at opening.
 
-    It is sent again until there is a row: a board that begins anew when its port is opened does not
+    It is sent again until there is a row: a board that restarts when its port is opened does not
     hear what is sent at once.
     """
 
@@ -60,7 +60,7 @@ class LineProtocol(SensorDriver):
         self._whole = unit.port.address.startswith(WHOLE)
 
     def opened(self) -> None:
-        """Begin anew."""
+        """Restart."""
         super().opened()
         self._lines.cleared()
         self._begun = not self._whole

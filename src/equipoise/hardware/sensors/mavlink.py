@@ -56,7 +56,7 @@ class Mavlink(SensorDriver):
         self.opened()
 
     def opened(self) -> None:
-        """Begin anew."""
+        """Restart."""
         super().opened()
         self._received = self._dialect.MAVLink(None)
         self._received.robust_parsing = True

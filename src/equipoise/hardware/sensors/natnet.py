@@ -43,7 +43,7 @@ class NatNet(SensorDriver):
         self._next, self._answered = float("-inf"), False
 
     def opened(self) -> None:
-        """Begin anew; a body may have another id by now."""
+        """Restart; a body may have another id by now."""
         super().opened()
         self._next, self._answered = float("-inf"), False
         if self._name:
@@ -52,7 +52,7 @@ class NatNet(SensorDriver):
     def due(self, t: float) -> bytes:
         """Return a greeting each second, and when it is answered a question or a sign of life.
 
-        A Motive that has been silent since the last one may have begun anew, and is greeted again.
+        A Motive that has been silent since the last one may have restarted, and is greeted again.
         """
         beat = self._unicast and t >= self._next
         if beat:

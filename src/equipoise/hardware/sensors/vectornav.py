@@ -68,7 +68,7 @@ WRITE, ERROR = b"VNWRG", b"VNERR"
 class VectorNav(SensorDriver):
     """The conversation; settings: ``message`` such as VNQMR and ``rate_hz``, asked for if given.
 
-    The device answers a request by saying it again, or by $VNERR and a number. One that began anew
+    The device answers a request by saying it again, or by $VNERR and a number. One that restarted
     has forgotten: it is asked again when another of these messages comes than the one asked for.
     """
 
@@ -78,7 +78,7 @@ class VectorNav(SensorDriver):
         self._lines, self._first = Lines(), False
 
     def opened(self) -> None:
-        """Begin anew."""
+        """Restart."""
         super().opened()
         self._lines.cleared()
         self._first = True

@@ -38,7 +38,7 @@ class SensorDriver(Tally):
         self.rowless: dict[Code, Rowless] = {}  # messages without a row, since the port was opened
 
     def opened(self) -> None:
-        """Begin anew: the port has just been opened, half a message of before is void."""
+        """Restart: the port has just been opened, half a message of before is void."""
         self.counts, self.rowless = Counts(), {}
         self.requests.begin()
 

@@ -61,7 +61,7 @@ class BoardDriver(Tally):
 
     @abstractmethod
     def opened(self, t: float) -> None:
-        """Begin anew: the port has just been opened. What was sure of the position is lost."""
+        """Restart: the port has just been opened. What was sure of the position is lost."""
 
     @abstractmethod
     def closed(self, why: str) -> None:
@@ -161,11 +161,11 @@ class ActuatorDriver(Tally):
         super().__init__()
         self._unit, self.state = unit, ActuatorState(Activity.CONNECTING)
         self.taken: list[Taken] = []  # since somebody took them out
-        self.begun = 0  # how often its clock and its counts began anew
+        self.begun = 0  # how often its clock and its counts restarted
 
     @abstractmethod
     def opened(self, t: float) -> None:
-        """Begin anew: the port has just been opened."""
+        """Restart: the port has just been opened."""
 
     @abstractmethod
     def closed(self, why: str) -> None:

@@ -25,7 +25,7 @@ class Parts:
         self.cleared()
 
     def cleared(self) -> None:
-        """Begin anew: an answer of the server is awaited."""
+        """Restart: an answer of the server is awaited."""
         self._raw = self._plain = b""
         self._chunks: Chunks | None = None
         self._boundary = b""  # empty: the answer's head has not come yet

@@ -13,7 +13,7 @@ from equipoise.hardware.transport.attended_time import AttendedTime
 AGAIN = 1.0  # s, chosen: between two sendings; answers take some ms, or 0.5 s by radio
 ONCE = float("inf")  # s, instead: for a line that loses nothing, where twice would be two requests
 PATIENCE = 1.5  # s, attended, chosen: until an open request is reported, as for boards
-QUIET = 3.0  # s, attended, chosen: longer than between rows; then the device may have begun anew
+QUIET = 3.0  # s, attended, chosen: longer than between rows; then the device may have restarted
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Requests:
         self.begin()
 
     def begin(self) -> None:
-        """Begin anew: the port was opened, nothing has been asked."""
+        """Restart: the port was opened, nothing has been asked."""
         self._clock, self._alive = AttendedTime(), 0.0
         self._open = {name: _Open() for name in self._names}
         self._following = dict.fromkeys(self._names, float("-inf"))  # s, when to send each next

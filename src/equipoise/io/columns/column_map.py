@@ -71,7 +71,7 @@ class ColumnMap:
     inverse: bool = False  # the attitude turns laboratory into body components
     mean_of_frames: bool = False  # rows may be means of several quaternions, hence short
     native: bool = False  # ours: no row is another clock's, time zero is as it stands
-    notes: tuple[str, ...] = ()  # what the dialect left aside
+    notes: tuple[str, ...] = ()  # what the dialect ignored
     free_from: float | None = None  # s, when the platform was let go, where the file states it
     layout: Layout = Layout()
 

@@ -87,7 +87,7 @@ def left_aside(names: tuple[str, ...], known: list[str]) -> tuple[str, ...]:
         return ()
     more = f" and {len(unknown) - NAMED} more" if len(unknown) > NAMED else ""
     reported = ", ".join(f"'{name}'" for name in unknown[:NAMED])
-    return (f"Columns that are not known were left aside: {reported}{more}.",)
+    return (f"Columns that are not known were ignored: {reported}{more}.",)
 
 
 def native_columns(recording: Recording) -> dict[str, Series1]:

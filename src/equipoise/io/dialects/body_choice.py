@@ -29,4 +29,4 @@ def no_body(body: str, source: str) -> InputError:
 def others_left(bodies: Sequence[str], body: str) -> tuple[str, ...]:
     """Say which bodies are not read."""
     others = [each for each in bodies if each != body]
-    return (f"Other bodies were left aside: {', '.join(others)}.",) if others else ()
+    return (f"Other bodies were ignored: {', '.join(others)}.",) if others else ()

@@ -2,7 +2,7 @@
 
 ``optitrack``  Motive's CSV export (https://docs.optitrack.com, "Data Export: CSV") and tables
                derived from it: 'Time (Seconds)', laboratory Y up, rotations named X, Y, Z, W in any
-               order. Rates beside them are differences of angles, not a gyro's, and are left aside.
+               order. Rates beside them are differences of angles, not a gyro's, and are ignored.
 ``vicon``      The blocks 'Objects' (Tracker) and 'Segments' (Nexus) of an export as CSV
                (https://docs.vicon.com, "Export data to CSV"): RX, RY, RZ are a rotation vector
                (Vicon: helical angles), with RW a quaternion; laboratory Z up; time is counted in
@@ -59,7 +59,7 @@ def optitrack_map(names: tuple[str, ...], source: str, body: str | None) -> Colu
     chosen = chosen_body(tuple(bodies), body, source)
     left = others_left(tuple(bodies), chosen)
     if any(name.startswith("omega") for name in names):
-        left = (*left, "The columns omega... were left aside: they are derived, not a gyro's.")
+        left = (*left, "The columns omega... were ignored: they are derived, not a gyro's.")
     return ColumnMap(
         time=(Columns((time[0],)),),
         quaternion=Columns(tuple(f"{bodies[chosen]}{letter}" for letter in LETTERS)),

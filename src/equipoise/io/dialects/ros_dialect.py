@@ -40,7 +40,7 @@ def ros_map(names: tuple[str, ...], source: str) -> ColumnMap:
     if attitude is None and rate is None:
         wanted = "columns such as 'orientation/x' or 'angular_velocity/x'"
         raise InputError(f"{source}, header", "neither an orientation nor a rate", wanted)
-    left = tuple(f"The columns of '{topic}' were left aside." for topic in more + others + unused)
+    left = tuple(f"The columns of '{topic}' were ignored." for topic in more + others + unused)
     return ColumnMap(
         time=_stamp(names, plain, source),
         quaternion=attitude,

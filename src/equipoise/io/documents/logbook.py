@@ -1,6 +1,6 @@
 """A logbook: the index of a folder of runs, in SQLite beside them.
 
-The folders are what counts. The index can be deleted at any time: it is made anew from them. Each
+The folders are what counts. The index can be deleted at any time: it is rebuilt from them. Each
 time it is opened it takes in what has come, changed or gone since (``logbook_update`` says what it
 does not notice). Several processes may have it open; each run is taken in whole or not at all. An
 index of an older version becomes one of today.
@@ -23,7 +23,7 @@ from equipoise.model.logged_run import Build, LoggedRun, ending_of
 INDEX = "logbook.sqlite"
 PATIENCE = 30.0  # s, chosen: for another process to end what it writes
 MEMORY = 64 * 1024  # KiB of the index that are kept in memory, chosen
-REMADE = "a logbook's index; delete it, and it is made anew from the folders of the runs"
+REMADE = "a logbook's index; delete it, and it is rebuilt from the folders of the runs"
 NAME = "CASE folder WHEN '' THEN runs.name ELSE folder || '/' || runs.name END"
 COLUMNS = ("name", "kind", "made_at", "platform", "configuration", "method", "bench", "outcome",
            "sentence", "temperature", "provenance")  # fmt: skip

@@ -33,27 +33,33 @@ class Part(Table):
     name: Visible
     shape: Shape = Field(description="tensor: inertia_kg_m2 is stated; unknown: swings show it")
     mass_g: Positive
-    mass_sd_percent: NotNegative = Field(0.5, description="one sd, chosen: a kitchen scale")
+    mass_sd_percent: NotNegative = Field(
+        0.5, description="standard deviation; default: a kitchen scale"
+    )
     size_mm: list[Positive] = Field(
         [],
         description="; ".join(
             f"{shape}: {', '.join(of)}" for shape, of in DIMENSIONS.items() if of
         ),
     )
-    size_sd_mm: NotNegative = Field(0.5, description="one sd of each, chosen: a ruler")
+    size_sd_mm: NotNegative = Field(0.5, description="standard deviation of each; default: a ruler")
     centre_mm: Triple = Field(description="its centre of mass, from P, body axes")
     centre_sd_mm: NotNegative = Field(
-        1.0, description="one sd of each component, chosen: a ruler, and a part not evenly filled"
+        1.0,
+        description="standard deviation of each component; default: a ruler, uneven filling",
     )
     turn_deg: Triple = Field(
         [0.0, 0.0, 0.0], description="rotation vector from the body's axes to the part's own"
     )
-    turn_sd_deg: NotNegative = Field(1.0, description="one sd about each axis, chosen: by eye")
+    turn_sd_deg: NotNegative = Field(
+        1.0, description="standard deviation about each axis; default: by eye"
+    )
     inertia_kg_m2: Inertia | None = Field(
         None, description="of a tensor: about its own centre of mass, in its own axes"
     )
     inertia_sd_percent: NotNegative = Field(
-        10.0, description="one sd of its own inertia, chosen: a box that is not evenly filled"
+        10.0,
+        description="standard deviation of its own inertia; default: a box that is not evenly filled",
     )
 
     def record(self, where: str) -> model.Part:
@@ -75,32 +81,38 @@ class Oscillation(Table):
 
     name: Visible
     axis: Direction = Field(description="body axes; level, unless a wire turns it back")
-    axis_sd_deg: NotNegative = Field(0.5, description="one sd, chosen: by a square")
+    axis_sd_deg: NotNegative = Field(0.5, description="standard deviation; default: by a square")
     through_mm: Triple = Field([0.0, 0.0, 0.0], description="a point of the axis, from P")
     period_s: Positive | None = Field(None, description="left out where a recording shows it")
     recording: Visible | None = Field(
         None, description="file with the attitude of this swing, beside the parts file: its period"
     )
     period_sd_s: Positive = Field(
-        0.02, description="one sd, chosen: twenty swings, stopped by hand to 0.4 s"
+        0.02, description="standard deviation; default: twenty swings, stopped by hand to 0.4 s"
     )
     amplitude_deg: Annotated[float, Field(ge=0, lt=90)] = Field(
         5.0, description="to either side, amid the swings that were timed; chosen: a gentle push"
     )
-    amplitude_sd_deg: NotNegative = Field(1.0, description="one sd, chosen: by eye")
+    amplitude_sd_deg: NotNegative = Field(1.0, description="standard deviation; default: by eye")
     decay_s: Positive | None = Field(
-        None, description="in which the amplitude falls by e; left out: no damping"
+        None, description="in which the amplitude falls by e; if omitted: no damping"
     )
     stiffness_N_m: Positive | None = Field(
-        None, description="of the wire, for a radian, the axis upright; left out: gravity's"
+        None, description="of the wire, for a radian, the axis upright; if omitted: gravity's"
     )
-    stiffness_sd_percent: NotNegative = Field(1.0, description="one sd, chosen: a known body on it")
+    stiffness_sd_percent: NotNegative = Field(
+        1.0, description="standard deviation; default: a known body on it"
+    )
     fixture_kg_m2: NotNegative = Field(0.0, description="of what swings too, about the axis")
     fixture_sd_kg_m2: NotNegative = 0.0
     weight_g: NotNegative = Field(0.0, description="put on for this swing, small beside its arm")
-    weight_sd_g: NotNegative = Field(0.1, description="one sd, chosen: a kitchen scale")
+    weight_sd_g: NotNegative = Field(
+        0.1, description="standard deviation; default: a kitchen scale"
+    )
     weight_mm: Triple = Field([0.0, 0.0, 0.0], description="where its centre is, from P")
-    weight_sd_mm: NotNegative = Field(0.5, description="one sd of each component, chosen: a ruler")
+    weight_sd_mm: NotNegative = Field(
+        0.5, description="standard deviation of each component; default: a ruler"
+    )
 
     def record(self, gravity: float, where: str) -> model.Oscillation:
         """Return the swing in SI; InputError unless its period is given once."""

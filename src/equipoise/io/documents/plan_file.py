@@ -31,10 +31,12 @@ class Start(Table):
     low_side: Triple = Field([1.0, 0.0, 0.0], description="body direction that is lowest")
     rate_deg_s: Triple = Field([0.0, 0.0, 0.0], description="body axes")
     tilt_sd_deg: NotNegative = Field(
-        round(HAND_TILT / DEG, 9), description="one sd, chosen: how well a hand meets a tilt"
+        round(HAND_TILT / DEG, 9),
+        description="standard deviation; default: how well a hand meets a tilt",
     )
     rate_sd_deg_s: NotNegative = Field(
-        round(HAND_RATE / DEG, 9), description="one sd of each component, chosen: of a push"
+        round(HAND_RATE / DEG, 9),
+        description="standard deviation of each component; default: of a push",
     )
 
 

@@ -27,11 +27,11 @@ LISTED = 12  # files of an archive that an error names (chosen)
 def unpacked(content: Content, path: Path, suffixes: tuple[str, ...]) -> tuple[str, bytes]:
     """Return name and bytes of the file inside one that begins with a mark of ``KINDS``.
 
-    ``suffixes`` are those of recordings: other files of an archive are left aside if one has such.
+    ``suffixes`` are those of recordings: other files of an archive are ignored if one has such.
     InputError if the file is broken, unpacks to too much, or holds several.
     """
     kind = next(name for mark, name in KINDS.items() if content.startswith(mark))
-    with as_broken(str(path), f"{kind} file", f"a whole {kind} file: copy it anew"):
+    with as_broken(str(path), f"{kind} file", f"a whole {kind} file: copy it again"):
         return _unpacked(content, path, suffixes)
 
 

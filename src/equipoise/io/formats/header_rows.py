@@ -39,7 +39,7 @@ def header_of(rows: list[list[str]], lines: Lines, source: str, layout: Layout) 
     at = last - 1 if before is None else last  # where the names are, if units follow
     if at >= 0 and at + 1 < len(rows) and _units_follow(rows[at], rows[at + 1], layout):
         units = tuple(_bare(cell) for cell in rows[at + 1])
-        note = f"Line {lines[at + 1]} holds units; it was left aside."
+        note = f"Line {lines[at + 1]} holds units; it was ignored."
         return Header(_column_names(rows, at, at + 2), at + 2, units, (note,))
     return Header(_column_names(rows, last, last + 1), last + 1)
 

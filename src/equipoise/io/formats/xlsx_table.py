@@ -25,7 +25,7 @@ from equipoise.model.errors import InputError
 WORKBOOK = "xl/workbook.xml"  # the file of an archive that makes it a workbook
 WANTED = "an Excel workbook with a sheet of a header and rows of numbers"
 INSTEAD = ", or save the sheet as CSV"
-BROKEN = "workbook", f"{WANTED}; save it anew in Excel{INSTEAD}"
+BROKEN = "workbook", f"{WANTED}; save it again in Excel{INSTEAD}"
 ROWS = 1 << 20  # of a sheet, at most (Excel's limit)
 CELLS = 1 << 24  # of a sheet, at most (chosen: 16 columns of all rows)
 TEXTS, TEXT = "sharedStrings.xml", 8  # bytes in memory for one there (chosen)
@@ -55,7 +55,7 @@ def read_xlsx(content: Content, source: str, layout: Layout) -> Table:
         name, rows, lines = _sheet(book, source, content.meter)
     table = table_of(rows, lines, source, layout)
     others = ", ".join(f"'{sheet.title}'" for sheet in book.worksheets if sheet.title != name)
-    note = f"Taken from sheet '{name}'; sheets left aside: {others}."
+    note = f"Taken from sheet '{name}'; sheets ignored: {others}."
     return replace(table, notes=(*table.notes, note)) if others else table
 
 

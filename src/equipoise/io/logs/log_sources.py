@@ -68,7 +68,7 @@ def channel_of(name: str, us: Series1, values: Floats) -> LogChannel:
 def chosen(
     sources: Sequence[Source], file: str, options: ReadOptions, best: Best
 ) -> tuple[list[LogChannel], tuple[str, ...]]:
-    """Return the channels that are taken, and notes on what was taken and what left aside.
+    """Return the channels that are taken, and notes on what was taken and what ignored.
 
     InputError if there is none, if several are as good, or if a stated topic or instance is not
     there.
@@ -192,7 +192,7 @@ def _notes(taken: Taken, known: Sequence[Source]) -> list[str]:
 def _left(taken: Taken, known: Sequence[Source]) -> list[str]:
     used = {source.name for source in taken.values()}
     left = [s for s in known if s.name not in used and (s.holds or s.doubt)]
-    return [f"Topics left aside: {', '.join(_texts(left))}."] if left else []
+    return [f"Topics ignored: {', '.join(_texts(left))}."] if left else []
 
 
 def _instances(source: Source, known: Sequence[Source]) -> list[Source]:

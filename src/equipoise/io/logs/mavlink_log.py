@@ -11,7 +11,7 @@ Rates beside an attitude have been through the vehicle's filters, so a gyro's go
 
 Rows have the times of the vehicle's clock, put where the ground station's clock has them: by the
 message that came soonest. Some messages count from boot, others from 1970; clocks that agree within
-a second are one. Where the vehicle began anew, the times of arrival count for all.
+a second are one. Where the vehicle restarted, the times of arrival count for all.
 """
 
 from collections import Counter
@@ -88,8 +88,8 @@ def read_tlog(content: Content, source: str, options: ReadOptions) -> tuple[Tabl
     others = sum(len(rows) for sender, rows in log.messages.items() if sender != vehicle)
     notices = (
         (log.broken, f"The log is broken in {log.broken} places; left out."),
-        (others, f"{others} rows of other systems or components were left aside."),
-        (began_anew, "The vehicle's clock began anew; times are those at which rows arrived."),
+        (others, f"{others} rows of other systems or components were ignored."),
+        (began_anew, "The vehicle's clock restarted; times are those at which rows arrived."),
     )
     channels, notes = chosen(sources, source, options, BEST)
     notes = (*(text for count, text in notices if count), *notes)
@@ -188,7 +188,7 @@ READ: Mapping[str, Callable[[Any], Mapping[str, Row]]] = {
 
 
 def _sources(log: Telemetry, vehicle: Sender) -> tuple[list[Source], bool]:
-    """Return the vehicle's sources, and whether its clock began anew."""
+    """Return the vehicle's sources, and whether its clock restarted."""
     groups: dict[tuple[str, int], list[Message]] = {}
     for message in log.messages.get(vehicle, []):
         groups.setdefault((message.kind, message.instance), []).append(message)
@@ -217,7 +217,7 @@ def _channels(messages: Sequence[Message], ns: Ints) -> dict[str, LogChannel]:
 def _times(
     groups: Mapping[tuple[str, int], Sequence[Message]],
 ) -> tuple[dict[tuple[str, int], Ints], bool]:
-    """Return the times of each group, ns since 1970, and whether the vehicle began anew."""
+    """Return the times of each group, ns since 1970, and whether the vehicle restarted."""
     arrivals = {key: _whole(m.arrival for m in messages) for key, messages in groups.items()}
     stamps = {key: _whole(m.stamp for m in messages) for key, messages in groups.items()}
     if any((np.diff(ns) < -SAME).any() for ns in stamps.values()):

@@ -7,7 +7,7 @@ Source: VN-100 user manual, sections "Communication interface" and "Asynchronous
 hex digits, the exclusive or of all bytes between $ and *, or four, CRC-16-CCITT. Quaternions come
 vector first and turn sensor components into north-east-down ones; angles are yaw, pitch, roll in
 degrees, 3-2-1; rates are rad/s. The messages hold no time, so a row has that of the terminal, which
-begins anew at midnight. Axes as in ``flight_axes``.
+restarts at midnight. Axes as in ``flight_axes``.
 """
 
 import math

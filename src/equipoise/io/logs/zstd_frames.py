@@ -12,7 +12,7 @@ from equipoise.io.logs.unpacking_work import Work
 
 PIECE = 1 << 22  # bytes that are unpacked at once (chosen)
 WIDEST = 1 << 27  # bytes of a window, Zstandard's own limit
-BROKEN = "Zstandard file", "a whole file: copy it anew"
+BROKEN = "Zstandard file", "a whole file: copy it again"
 
 
 def unframed(data: bytes | memoryview, work: Work, stated: int | None = None) -> bytes:

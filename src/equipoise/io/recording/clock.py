@@ -1,6 +1,6 @@
 """The clock of a table set right: counters that wrap, stamps that are wrong.
 
-A counter of few bits, or a clock of the day, begins anew: where a step back is one of few known
+A counter of few bits, or a clock of the day, restarts: where a step back is one of few known
 lengths short of a usual step forward, what follows goes on by that length. Of the rest the longest
 run of times that do not go back is kept, so that a wrong stamp condemns itself and not those after
 it. Few rows at either end that a gap beyond any measure cuts off are another clock's.
@@ -78,14 +78,14 @@ def untimed(table: Table, columns: ColumnMap, rows: Ints) -> tuple[FaultyRows, .
 def _unwrapped(
     table: Table, columns: ColumnMap, time: Series1, timed: Ints
 ) -> tuple[Series1, Notes]:
-    """Return a clock that goes on where its counter began anew."""
+    """Return a clock that goes on where its counter restarted."""
     wrapped = wraps(time[timed], float(np.min(columns.time[0].factor)))
     whole = time.copy() if wrapped else time
     notes: list[str] = []
     for place, length in wrapped:
         whole[timed[place:]] += length
         where = table.place(int(timed[place]))
-        notes.append(f"The clock began anew after {length:.9g} s, at {where}; taken as on.")
+        notes.append(f"The clock restarted after {length:.9g} s, at {where}; taken as continuing.")
     return whole, tuple(notes)
 
 

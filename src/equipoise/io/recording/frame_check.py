@@ -59,7 +59,7 @@ def _check_level(recording: Recording, attitude: Samples, testbed: Testbed) -> N
     )
     wanted = (
         "attitudes in a laboratory whose Z is up: level its axes (the ground plane of a motion "
-        "capture) and record anew; or the tilt_limit_deg that the platform has, if it stands so"
+        "capture) and record again; or the tilt_limit_deg that the platform has, if it stands so"
     )
     raise InputError(recording.source or "recording", found, wanted)
 

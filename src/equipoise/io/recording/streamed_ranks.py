@@ -10,7 +10,7 @@ import numpy as np
 from equipoise.model.arrays import Series1
 
 DIGIT = 16  # bits that a pass finds (chosen: 65536 counts)
-Parts = Callable[[], Iterator[Series1]]  # each call begins anew
+Parts = Callable[[], Iterator[Series1]]  # each call restarts
 
 
 def streamed_median(parts: Parts) -> float:

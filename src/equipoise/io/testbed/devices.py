@@ -21,10 +21,12 @@ from equipoise.model import devices as model
 from equipoise.model.errors import InputError
 
 GAIN_SD: float = Field(
-    1.0, description="one sd of what it gives, relative, chosen: a data sheet; 0: exact"
+    1.0,
+    description="standard deviation of what it gives, relative; default: a data sheet; 0: exact",
 )
 MOUNTING_SD: float = Field(
-    0.2, description="one sd of its axes about each direction across, chosen: bolted on; 0: exact"
+    0.2,
+    description="standard deviation of its axes about each direction across; default: bolted on; 0: exact",
 )
 
 
@@ -37,7 +39,7 @@ class ReactionWheel(RecordTable):
     max_speed_rpm: Positive = Field(description="against the platform")
     max_torque_N_m: Positive
     speed_rpm: float = Field(0.0, description="at the start")
-    speed_noise_rpm: NotNegative = Field(0.0, description="one sd of a tachometer row")
+    speed_noise_rpm: NotNegative = Field(0.0, description="standard deviation of a tachometer row")
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the torque")
     gain_sd_percent: NotNegative = GAIN_SD
     mounting_sd_deg: NotNegative = MOUNTING_SD
@@ -65,7 +67,7 @@ class ControlMomentGyro(RecordTable):
     momentum_N_m_s: Positive
     max_rate_deg_s: Positive
     angle_deg: float = Field(0.0, description="at the start")
-    angle_noise_deg: NotNegative = Field(0.0, description="one sd of an encoder row")
+    angle_noise_deg: NotNegative = Field(0.0, description="standard deviation of an encoder row")
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the rate")
     gimbal_inertia_kg_m2: NotNegative = Field(
         0.0, description="of all that turns with the gimbal, about the gimbal axis"
@@ -107,7 +109,7 @@ class CoilPair(RecordTable):
     gain_sd_percent: NotNegative = GAIN_SD
     mounting_sd_deg: NotNegative = MOUNTING_SD
     nonuniformity_percent: NotNegative = Field(
-        1.0, description="greatest deviation within the working volume, chosen: near its middle"
+        1.0, description="greatest deviation within the working volume; default: near its middle"
     )
 
     def record(self, where: str) -> model.CoilPair:
@@ -137,7 +139,8 @@ class MagneticField(RecordTable):
 
     field_uT: Annotated[Triple, Holds("field_N")] = Field(description="laboratory axes, z up")
     noise_uT: Positive | None = Field(
-        None, description="one sd per axis of a magnetometer's row; left out: there is none"
+        None,
+        description="standard deviation per axis of a magnetometer's row; if omitted: there is none",
     )
 
     def record(self, where: str) -> model.MagneticField:
@@ -167,7 +170,7 @@ class Thermometer(RecordTable):
     KIND = model.Thermometer
 
     rate_hz: Positive
-    noise_K: NotNegative = Field(0.0, description="one sd of a row")
+    noise_K: NotNegative = Field(0.0, description="standard deviation of a row")
 
 
 Device = ReactionWheel | ControlMomentGyro | Magnetorquer | CoilPair | JetPair

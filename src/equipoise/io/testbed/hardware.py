@@ -111,13 +111,13 @@ class Hardware(RecordTable):
     """What is connected, and beyond which limits every motor is stopped."""
 
     rate_limit_deg_s: Annotated[Positive, Holds("limits.rate")] = Field(
-        60.0, description="chosen: well above any free swing"
+        60.0, description="default: well above any free swing"
     )
     stale_s: Annotated[Positive, Holds("limits.stale")] = Field(
-        0.5, description="chosen: without a row or an answer for so long"
+        0.5, description="default: without a row or an answer for so long"
     )
     mismatch_mm: Annotated[Positive, Holds("limits.mismatch")] = Field(
-        1.0, description="chosen: between where a mass should be and where its board says it is"
+        1.0, description="default: between where a mass should be and where its board says it is"
     )
     board: Annotated[list[Board], Holds("boards")] = Field([])
     sensor: Annotated[list[SensorUnit], Holds("sensors")] = Field([])

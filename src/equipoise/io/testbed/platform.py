@@ -47,7 +47,7 @@ class Platform(RecordTable):
     )
     inertia_sd_percent: Positive = Field(
         10.0,
-        description="one sd, chosen: usual for CAD; where it is stated, moments that no body can "
+        description="standard deviation; default: usual for CAD; where it is stated, moments that no body can "
         "have by chance of 3 sd at most are brought to the nearest possible",
     )
     about: Literal["C", "P"] = Field("C", description="C: centre of mass, P: centre of rotation")
@@ -55,25 +55,29 @@ class Platform(RecordTable):
         [0.0, 0.0, 0.0], description="first guess, from P"
     )
     com_sd_um: SdTriple = Field(
-        [500.0, 500.0, 500.0], description="one sd, chosen: a platform balanced by hand"
+        [500.0, 500.0, 500.0],
+        description="standard deviation; default: a platform balanced by hand",
     )
     up: Direction | None = Field(None, description="body axis that points up when level")
     tilt_limit_deg: Annotated[float, Field(gt=0, le=180)] = Field(
         30.0,
-        description="where the platform meets its stop; chosen: usual for a table on a hemisphere",
+        description="where the platform meets its stop; default: usual for a table on a hemisphere",
     )
     gravity_m_s2: Positive = Field(9.80665, description="standard gravity")
     mass_sd_percent: NotNegative = Field(
-        0.5, description="one sd of mass_kg, chosen: weighed in parts; 0: exact"
+        0.5, description="standard deviation of mass_kg; default: weighed in parts; 0: exact"
     )
     gravity_sd_percent: NotNegative = Field(
-        0.1, description="one sd, chosen: standard gravity on most of the Earth; 0: exact"
+        0.1,
+        description="standard deviation; default: standard gravity on most of the Earth; 0: exact",
     )
     momentum_sd_percent: NotNegative = Field(
-        1.0, description="one sd of momentum that is recorded as such, chosen: a data sheet"
+        1.0,
+        description="standard deviation of momentum that is recorded as such; default: a data sheet",
     )
     torque_sd_percent: NotNegative = Field(
-        1.0, description="one sd of torque that is recorded as such, chosen: a data sheet"
+        1.0,
+        description="standard deviation of torque that is recorded as such; default: a data sheet",
     )
 
     def body(self, where: str) -> tuple[MassProperties, tuple[Reason, ...]]:
@@ -110,17 +114,17 @@ class SlidingMass(RecordTable):
     axis: Direction
     travel_mm: Pair = Field(description="least and greatest displacement")
     resolution_mm: NotNegative = Field(0.0, description="0: any displacement can be asked for")
-    accuracy_mm: NotNegative = Field(0.1, description="one sd, chosen: a lead screw's")
+    accuracy_mm: NotNegative = Field(0.1, description="standard deviation; default: a lead screw's")
     backlash_mm: NotNegative = 0.0
-    speed_mm_s: Positive = Field(10.0, description="chosen: a small stepper on a lead screw")
+    speed_mm_s: Positive = Field(10.0, description="default: a small stepper on a lead screw")
     lag_sd_ms: NotNegative = Field(
         model.LAG_SD / MS,
-        description="one sd of how late it follows a recorded command, chosen: a soft servo's; "
+        description="standard deviation of how late it follows a recorded command; default: a soft servo's; "
         "masses with one value share one lag; 0: at once, or the log is a measurement",
     )
     sag_sd_mm: NotNegative = Field(
         model.SAG_SD / MM,
-        description="one sd of how far it hangs below a command on an upright rail, chosen: a "
+        description="standard deviation of how far it hangs below a command on an upright rail; default: a "
         "soft servo's; 0: a stiff drive, a lead screw's",
     )
     gain: Positive = Field(
@@ -129,7 +133,7 @@ class SlidingMass(RecordTable):
         "displacement; equipoise calibrate finds it",
     )
     mass_sd_percent: NotNegative = Field(
-        0.5, description="one sd of mass_g and gain, chosen: a kitchen scale; 0: exact"
+        0.5, description="standard deviation of mass_g and gain; default: a kitchen scale; 0: exact"
     )
 
     def record(self, where: str) -> model.SlidingMass:

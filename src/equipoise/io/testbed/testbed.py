@@ -31,7 +31,7 @@ WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
 
 CLOCK: float = Field(
     100 * model.CLOCK_SD,
-    description="one sd of how fast its clock is, chosen: a crystal; 0: exact",
+    description="standard deviation of how fast its clock is; default: a crystal; 0: exact",
 )
 
 
@@ -41,14 +41,14 @@ class Attitude(RecordTable):
     KIND = model.AttitudeSensor
 
     rate_hz: Positive
-    noise_deg: Positive = Field(description="one sd per axis and sample")
+    noise_deg: Positive = Field(description="standard deviation per axis and sample")
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
     quantum_deg: NotNegative = Field(0.0, description="last digit of roll, pitch, yaw (3-2-1)")
     clock_sd_percent: NotNegative = CLOCK
     plumb_sd_deg: NotNegative = Field(
         math.degrees(model.PLUMB_SD),
-        description="one sd of how far its vertical may lean from gravity's, chosen: levelled by "
+        description="standard deviation of how far its vertical may lean from gravity's; default: levelled by "
         "eye; 0: it does not lean",
     )
 
@@ -57,9 +57,9 @@ class Gyro(RecordTable):
     """A rate gyro triad; give its noise per sample or as a density, not both."""
 
     rate_hz: Positive
-    noise_deg_s: Positive | None = Field(None, description="one sd per axis and sample")
+    noise_deg_s: Positive | None = Field(None, description="standard deviation per axis and sample")
     noise_density_deg_s_rthz: Positive | None = Field(None, description="noise / sqrt(rate)")
-    bias_sd_deg_s: NotNegative = Field(1.0, description="chosen: usual for a low-cost gyro")
+    bias_sd_deg_s: NotNegative = Field(1.0, description="default: usual for a low-cost gyro")
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
     quantum_deg_s: NotNegative = Field(0.0, description="last digit of a rate")

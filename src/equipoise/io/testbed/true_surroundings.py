@@ -21,7 +21,7 @@ class TrueCoilPair(RecordTable):
     name: str
     gain: Positive = Field(1.0, description="of the field that it is driven by")
     axis: Annotated[Direction | None, Holds("axis_N")] = Field(
-        None, description="laboratory axes; left out: as the pair's own key"
+        None, description="laboratory axes; if omitted: as the pair's own key"
     )
     deviation_percent: float | None = Field(
         None,
@@ -36,8 +36,8 @@ class TrueLamp(RecordTable):
     on_s: list[Pair] = Field(
         min_length=1, description="from when to when; what is on at 0 has been on for long"
     )
-    warms_K: Positive | None = Field(None, description="in the end; left out: as [lamp] has it")
-    time_constant_s: Positive | None = Field(None, description="left out: as [lamp] has it")
+    warms_K: Positive | None = Field(None, description="in the end; if omitted: as [lamp] has it")
+    time_constant_s: Positive | None = Field(None, description="if omitted: as [lamp] has it")
 
     def record(self, where: str) -> defects.TrueLamp:
         """Return the lamp, whose times must grow."""

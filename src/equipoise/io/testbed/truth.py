@@ -77,7 +77,9 @@ class Drive(RecordTable):
     gain: Positive | None = Field(None, description="as the mass's own key")
     axis: Direction | None = Field(None, description="direction of the rail, body axes")
     backlash_mm: NotNegative | None = None
-    accuracy_mm: NotNegative | None = Field(None, description="one sd of where it really stops")
+    accuracy_mm: NotNegative | None = Field(
+        None, description="standard deviation of where it really stops"
+    )
 
 
 class Contact(RecordTable):
@@ -166,7 +168,7 @@ class Truth(RecordTable):
         0.0, description="share of the camera's rows that are outliers"
     )
     bad_row_deg: Annotated[float, Field(ge=0, le=180), Holds("camera.bad_turn")] = Field(
-        10.0, description="turn of an outlier about any axis, chosen: well outside any noise"
+        10.0, description="turn of an outlier about any axis; default: well outside any noise"
     )
     mass_lag_s: NotNegative = Field(0.0, description="masses are so far behind their report")
     field_uT: Annotated[Triple | None, Holds("field_N")] = Field(

@@ -9,7 +9,8 @@ from equipoise.io.toml.table_records import RecordTable
 from equipoise.model import vector_sensors as model
 
 MOUNTING_SD: float = Field(
-    0.5, description="one sd of its axes about each body axis, chosen: a chip's, or a bracket's"
+    0.5,
+    description="standard deviation of its axes about each body axis; default: a chip's, or a bracket's",
 )
 
 
@@ -19,8 +20,8 @@ class Accelerometer(RecordTable):
     KIND = model.Accelerometer
 
     rate_hz: Positive
-    noise_m_s2: Positive = Field(description="one sd per axis and sample")
-    bias_sd_m_s2: NotNegative = Field(0.2, description="chosen: 20 mg, usual for a low-cost MEMS")
+    noise_m_s2: Positive = Field(description="standard deviation per axis and sample")
+    bias_sd_m_s2: NotNegative = Field(0.2, description="default: 20 mg, usual for a low-cost MEMS")
     place_mm: Triple = Field([0.0, 0.0, 0.0], description="from the centre of rotation")
     delay_s: NotNegative = 0.0
     mounting_sd_deg: NotNegative = MOUNTING_SD
@@ -32,9 +33,9 @@ class Sun(RecordTable):
     KIND = model.SunSensor
 
     rate_hz: Positive
-    noise: Positive = Field(description="one sd per axis and sample, of a unit vector")
+    noise: Positive = Field(description="standard deviation per axis and sample, of a unit vector")
     direction: Annotated[Direction | None, Holds("direction_N")] = Field(
-        None, description="to the lamp, laboratory axes, z up; left out: as [lamp] has it"
+        None, description="to the lamp, laboratory axes, z up; if omitted: as [lamp] has it"
     )
     delay_s: NotNegative = 0.0
     mounting_sd_deg: NotNegative = MOUNTING_SD
@@ -46,7 +47,7 @@ class Magnetometer(RecordTable):
     KIND = model.Magnetometer
 
     rate_hz: Positive
-    noise_uT: Positive = Field(description="one sd per axis and sample")
-    bias_sd_uT: NotNegative = Field(1.0, description="chosen: what a calibration leaves")
+    noise_uT: Positive = Field(description="standard deviation per axis and sample")
+    bias_sd_uT: NotNegative = Field(1.0, description="default: what a calibration leaves")
     delay_s: NotNegative = 0.0
     mounting_sd_deg: NotNegative = MOUNTING_SD

@@ -28,7 +28,9 @@ class Weight(RecordTable):
     name: Name
     mass_g: Positive
     count: Count = Field(description="how many there are")
-    mass_sd_g: NotNegative = Field(0.0, description="one sd of each; 0: weighed well enough")
+    mass_sd_g: NotNegative = Field(
+        0.0, description="standard deviation of each; 0: weighed well enough"
+    )
     height_mm: NotNegative = Field(0.0, description="by which each makes a pile higher")
 
 
@@ -46,7 +48,8 @@ class WeightGrid(RecordTable):
     numbers: Count
     capacity: Count = Field(1, description="weights in a pile")
     place_sd_mm: NotNegative = Field(
-        0.5, description="one sd of where a pile stands, each way, chosen: play in a drilled hole"
+        0.5,
+        description="standard deviation of where a pile stands, each way; default: play in a drilled hole",
     )
     taken: list[str] = Field([], description="places that are not free, such as C4")
 

@@ -38,7 +38,7 @@ class ActuatorFault(Code):
     )
     BEGAN_ANEW = (
         "actuator_began_anew",
-        "it began anew, unasked, and is at rest; check its power supply, then home again",
+        "it restarted, unasked, and is at rest; check its power supply, then home again",
     )
     HALTED_THERE = "actuator_halted_there", "it was halted, and not by this program; home again"
     OWN_FAULT = (

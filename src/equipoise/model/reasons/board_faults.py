@@ -36,12 +36,12 @@ class BoardFault(Code):
     )
     BEGAN_ANEW = (
         "began_anew",
-        "it began anew, unasked ({0}); its position is lost; check its power supply, then home "
+        "it restarted, unasked ({0}); its position is lost; check its power supply, then home "
         "again",
     )
     NOT_BEGUN = (
         "not_begun",
-        "it has not begun anew {waited:.1f} s after a reset; the last line received is {0}, "
+        "it has not restarted {waited:.1f} s after a reset; the last line received is {0}, "
         "{ago:.1f} s ago; switch it off and on, then home again",
     )
     ALARM = "board_alarm", "{0} (ALARM:{number:.0f}); home again"

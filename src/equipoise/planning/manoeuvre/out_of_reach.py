@@ -28,9 +28,9 @@ def out_of_reach(space: Space, nearest: Floats, tried: int, alone: bool) -> Inpu
         if value > limit
     ]
     found = (
-        f"that none of {tried} manoeuvres of {space.duration:.4g} s keeps the limits, the mildest "
-        f"among them: the nearest does with {count_kept(space, nearest)} of {len(nearest)} "
-        f"platforms that may be there, others come to {' and '.join(passed)}"
+        f"that none of {tried} manoeuvres of {space.duration:.4g} s keeps the limits, "
+        f"not even the mildest: the nearest does with {count_kept(space, nearest)} of "
+        f"{len(nearest)} possible platforms, others reach {' and '.join(passed)}"
     )
     return InputError(space.testbed.name, found, ", or ".join(helpful(space, greatest, alone)))
 
@@ -39,9 +39,11 @@ def helpful(space: Space, greatest: Floats, alone: bool) -> list[str]:
     """Return what may help, each as a phrase."""
     com = 1e6 * float(np.max(space.testbed.com_sd))
     known = (
-        "a short swing recorded first, which the plan is given as prior record "
-        f"(the centre of mass is known to {com:.3g} um only)"
+        "a short swing recorded first, given to the plan as prior record (the centre "
+        f"of mass is known to {com:.3g} um only)"
     )
-    rate = ["a greater limit of the rate"] if greatest[1] > space.rate_limit else []
-    balanced = "a platform that was balanced roughly before, with that centre of mass in its file"
+    rate = ["a higher rate limit"] if greatest[1] > space.rate_limit else []
+    balanced = (
+        "a platform that was balanced roughly before, with its centre of mass in the testbed file"
+    )
     return ["a shorter record", *([known] if alone else []), balanced, *rate]

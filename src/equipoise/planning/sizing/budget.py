@@ -72,13 +72,13 @@ def budget_of(case: Case) -> Budget:
     done = balanced(case, reach)
     left, beyond = done.left, done.standing.error @ across
     of_offsets = [
-        offset_line(case, "out of reach", "What no mass can shift", mean_square(beyond)),
-        offset_line(case, "measurement", "The error of the measured centre of mass",
+        offset_line(case, "out of reach", "Offset that no mass can shift", mean_square(beyond)),
+        offset_line(case, "measurement", "Error of the measured centre of mass",
                     along @ done.last.com @ along),
-        offset_line(case, "steps", "The least step of the masses", mean_square(left.steps @ along)),
-        offset_line(case, "stops", "The accuracy with which masses stop", mean_square(left.stops)),
-        offset_line(case, "backlash", "The backlash of the masses", mean_square(left.backlash)),
-        offset_line(case, "rails", "The lean of the rails", mean_square(left.rails)),
+        offset_line(case, "steps", "Smallest step of the masses", mean_square(left.steps @ along)),
+        offset_line(case, "stops", "Positioning accuracy of the masses", mean_square(left.stops)),
+        offset_line(case, "backlash", "Backlash of the masses", mean_square(left.backlash)),
+        offset_line(case, "rails", "Misalignment of the rails", mean_square(left.rails)),
     ]  # fmt: skip
     others = [target_line(case), *surrounding_lines(testbed, case.around, case.tilt)]
     there = [line for line in (*of_offsets, *others) if line.torque > 0]
@@ -149,7 +149,7 @@ def target_line(case: Case) -> Line:
     torque = expected_torque(case.testbed, moment, case.tilt)
     return Line(
         "target",
-        "The distance of the target from the centre of rotation",
+        "Distance of the target from the centre of rotation",
         torque,
         moment,
         REQUESTED,

@@ -63,18 +63,18 @@ def surrounding_lines(testbed: Testbed, around: Surroundings, tilt: float) -> It
     weight = testbed.weight
     warm = basis_of(around, "expansion", "length", "lopsided")
     drift = any_way(testbed, warmth(around), tilt)
-    yield Line("warmth", "The warmth of the room", *drift, warm)
+    yield Line("warmth", "Room temperature", *drift, warm)
     if around.bending > 0:
         left, cause = (
             sag_left(testbed, around, tilt),
-            "The rest of the deck's sag after the best trim",
+            "Sag of the deck after the best trim",
         )
         yield Line("sag", cause, left, None, basis_of(around, "bending_share"))
     form = weight * around.form_error
-    yield Line("sphericity", "The form error of the bearing", form, None, REQUESTED)
+    yield Line("sphericity", "Form error of the bearing", form, None, REQUESTED)
     lift, cause = (
         any_way(testbed, buoyancy(testbed, around), tilt),
-        "The changed density of the air",
+        "Change of air density",
     )
     yield Line("buoyancy", cause, *lift, basis_of(around, "lever"))
     across = gradient(testbed, tilt)
@@ -82,7 +82,7 @@ def surrounding_lines(testbed: Testbed, around: Surroundings, tilt: float) -> It
     turning = float(np.linalg.eigvalsh(testbed.body.inertia_P)[-1]) * around.slew * EARTH_RATE
     yield Line("Earth's rate", "The Earth's rate", turning, None, REQUESTED)
     air = ASSUMED if around.air == PLAIN.air else REQUESTED
-    yield Line("air", "The air of room and bearing", around.air, None, air)
+    yield Line("air", "Air of room and bearing", around.air, None, air)
 
 
 def basis_of(around: Surroundings, *names: str) -> str:
@@ -98,7 +98,7 @@ def not_stated(around: Surroundings) -> tuple[str, ...]:
         "sag of the deck": around.bending,
         "form error of the bearing": around.form_error,
         "density of the air": around.air_change * around.volume,
-        "the Earth's rate in slews": around.slew,
+        "Earth rate during slews": around.slew,
     }
     return tuple(name for name, value in stated.items() if value == 0)
 

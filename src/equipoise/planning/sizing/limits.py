@@ -31,9 +31,9 @@ def limit_sentence(case: Case, budget: Budget, better: tuple[Bettered, ...]) -> 
     if mending:
         best = mending[0]
         after = plain(best.torque / UN_M)
-        return f"{text} {capital(best.name)} would bring it from {total} to {after} uN m."
+        return f"{text} {capital(best.name)} would reduce it from {total} to {after} uN m."
     without = np.sqrt(max(budget.torque**2 - line.torque**2, 0.0)) / UN_M
-    return f"{text} Without it {plain(without)} uN m would be left."
+    return f"{text} Without it {plain(without)} uN m would remain."
 
 
 def detail(case: Case, line: Line) -> str:
@@ -63,18 +63,19 @@ def capital(text: str) -> str:
 
 def reach_sentence(reach: Reach, within: float) -> str:
     """Return the correctable offset as a sentence, and the share of platforms within it."""
-    share = f"{within / PERCENT:.3g} % of the platforms that the testbed states"
+    share = f"{within / PERCENT:.3g} % of the platforms that the testbed describes"
     size = plain(tolerance(reach) / UM)
     if reach.rank == 3:
         return (
-            f"An offset from the target of up to {size} um can be corrected whatever its "
-            f"direction: balance by hand to within that. {capital(share)} can be brought there."
+            f"An offset from the target of up to {size} um can be corrected in any "
+            f"direction: balance by hand to within that. {capital(share)} can be "
+            "brought there."
         )
     free = ", ".join(direction(v) for v in unreachable(reach).T)
     return (
-        f"The masses reach {WAYS[reach.rank]} only, up to {size} um in any direction of it; "
-        f"nothing shifts the centre of mass along {free}. {capital(share)} can be brought to the "
-        "target."
+        f"The masses act {WAYS[reach.rank]} only, up to {size} um in any direction of "
+        f"it; nothing shifts the centre of mass along {free}. {capital(share)} can be "
+        "brought to the target."
     )
 
 

@@ -21,7 +21,7 @@ Sensor = AttitudeSensor | Gyro | VectorSensor
 
 HALF = 0.5
 MASS_LENGTHS = {"steps": "resolution", "stops": "accuracy", "backlash": "backlash"}  # by line
-BETTER_MASSES = {"steps": "steps half as long", "stops": "masses that stop twice as accurately",
+BETTER_MASSES = {"steps": "steps half as long", "stops": "masses with half the positioning error",
                  "backlash": "half the backlash"}  # fmt: skip
 VECTOR_SENSORS = {"accelerometer": "accelerometer", "sun": "sun sensor",
                   "magnetometer": "magnetometer"}  # fmt: skip
@@ -82,7 +82,9 @@ def sensor_changes(case: Case) -> Iterator[Change]:
         yield Change("half the camera's noise", "measurement", observed_by(attitude=sharper))
         if camera.plumb_sd > 0:
             plumb = replace(camera, plumb_sd=HALF * camera.plumb_sd)
-            yield Change("a camera twice as level", "measurement", observed_by(attitude=plumb))
+            yield Change(
+                "a camera with half the levelling error", "measurement", observed_by(attitude=plumb)
+            )
     if gyro is None:
         yield Change("a good MEMS gyro", "measurement", observed_by(gyro=GYRO))
     else:
@@ -104,9 +106,13 @@ def surrounding_changes(case: Case) -> Iterator[Change]:
     """Yield better surroundings, of what is stated."""
     around = case.around
     better = (
-        ("a temperature twice as steady", "warmth", {"temperature": HALF * around.temperature}),
+        ("half the temperature variation", "warmth", {"temperature": HALF * around.temperature}),
         ("a deck that swings twice as fast", "sag", {"bending": 2 * around.bending}),
-        ("a bearing twice as round", "sphericity", {"form_error": HALF * around.form_error}),
+        (
+            "a bearing with half the form error",
+            "sphericity",
+            {"form_error": HALF * around.form_error},
+        ),
         ("air twice as steady", "buoyancy", {"air_change": HALF * around.air_change}),
         ("half the air's torque", "air", {"air": HALF * around.air}),
     )

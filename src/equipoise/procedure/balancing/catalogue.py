@@ -18,11 +18,16 @@ from equipoise.simulation.carried_out import carried_out
 
 OWN = LawCard(
     name="measure_and_move",
-    idea="Fits the whole record, moves when that pays, and verifies it on the record after.",
+    idea=(
+        "Fits the whole record, moves when that improves the balance, and verifies it on "
+        "fresh data."
+    ),
     source="Equipoise; Ivanov 2021 section 5, with the trajectory fit instead of a filter",
     needs=("masses", "attitude"),
-    leaves="the motor steps; elastic sag only if the testbed considers it",
-    stable="open loop between moves: always; it brakes a platform that would pass its tilt limit",
+    leaves="the motor steps; elastic sag only if the testbed models it",
+    stable=(
+        "open loop between moves: always stable; it stops a platform that approaches its tilt limit"
+    ),
     period=0.0,
 )
 LEISURE = 10.0  # s, chosen: for the first measurement, before the masses follow

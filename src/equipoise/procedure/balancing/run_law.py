@@ -85,7 +85,8 @@ def check(card: LawCard, testbed: Testbed) -> None:
     if missing:
         found = f"a testbed without {' and without '.join(missing)}"
         wanted = (
-            "what it needs in the testbed file, another law (equipoise laws), or balance --manual"
+            "the missing devices in the testbed file, another law (equipoise laws), "
+            "or balance --manual"
         )
         raise InputError(f"law {card.name}", found, wanted)
 

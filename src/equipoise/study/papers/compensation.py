@@ -93,11 +93,11 @@ def compensation(method: str, hold: tuple[str, ...] = ()) -> Law[State, Params]:
 
     card = LawCard(
         f"compensation by {method}",
-        "A swing, an estimate by a printed method, a move by it; again.",
+        "A swing, an estimate by a printed method, a move by it; repeated.",
         "da Silva et al. 2021 section 3.1 with erratum R4",
         ("masses", "gyro", "attitude"),
-        "what its method is wrong by at small swings",
-        "open loop between moves: always",
+        "the errors of its method at small swings",
+        "open loop between moves: always stable",
         PERIOD,
     )
     return Law(card, begin, step)

@@ -96,7 +96,7 @@ ITEMS = (
          "tests/estimation/filters/test_filters.py"),
     Item("R18", "[38]", "inertia by oscillation, and by a parts list",
          "tests/app/commands/test_inertia.py"),
-    Item("R19", "Table 1", "computers of the Arduino's class on board",
+    Item("R19", "Table 1", "on-board computers of the Arduino class",
          "docs/decisions/0038-no-estimation-on-microcontrollers.md"),
     Item("R20", "section 4, [22]", "PID tuned by Ziegler and Nichols",
          "tests/control/laws/test_pid.py"),

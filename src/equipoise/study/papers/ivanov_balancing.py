@@ -107,8 +107,8 @@ def balancing_rows(every: Sequence[Balanced]) -> tuple[PaperRow, ...]:
 def law_rows(law: str, runs: Sequence[Balanced], drifts: bool) -> list[PaperRow]:
     """Return what a law reaches, after how many moves, and when."""
     worst = [float(np.abs(run.error).max()) / UM for run in runs]
-    drift = "1 to 4 um/min of drift that nobody declares" if drifts else "no drift"
-    why = f"{len(runs)} platforms, {drift}; most of 95 %"
+    drift = "1 to 4 um/min of undeclared drift" if drifts else "no drift"
+    why = f"{len(runs)} platforms, {drift}; worst of 95 %"
     mostly = partial(np.quantile, q=MOSTLY)
     numbers = (
         ("distance from the target along an axis", "um", REACHED[0] / UM, mostly(worst)),

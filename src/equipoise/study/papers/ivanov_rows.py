@@ -35,7 +35,7 @@ def experiment_rows(fitted: Fitted) -> tuple[PaperRow, ...]:
     """Return the rows of one experiment (Figs. 6 and 7)."""
     com = fitted.estimate.values(COM) / UM
     six, printed = fitted.estimate.values(INERTIA), pack_symmetric(ivanov.INERTIA_C)
-    simulated = "the printed number is the truth that is simulated"
+    simulated = "the printed number is the simulated truth"
     rows = [
         _close("section 4", "centre of mass before the move", "um",
                (com, ivanov.COM / UM, COM_SCATTER), simulated),
@@ -74,15 +74,15 @@ def tracking_rows(tracked: Tracked) -> tuple[PaperRow, ...]:
     shift = (fed.values[-1] - before) / UM
     left = np.array([abs(float((fed.values[-1] - end)[2])) / UM])
     found = np.array([abs(float((ignored.values[-1] - end)[2])) / UM])
-    drift = "1 um/min of drift that nobody declared, for 2 min"
+    drift = "1 um/min of undeclared drift, for 2 min"
     return (
         _small("Fig. 12", "error of the filter before the move", "um",
                (error, np.full(3, FILTER_ERROR)), drift),
         _close("Fig. 13", "shift that the move is computed to make", "um",
                (_commanded(tracked), SHIFT, 0.1 * np.abs(SHIFT)), "erratum I15: 15.6 g, 14.24 kg"),
-        _close("Fig. 13", "shift that the filter finds", "um",
+        _close("Fig. 13", "shift that the filter estimates", "um",
                (shift, SHIFT, COM_SCATTER), "stops of 0.33 mm each and two minutes of drift"),
-        _small("Fig. 13", "what is missing of the height, move fed forward", "um",
+        _small("Fig. 13", "missing part of the height, move fed forward", "um",
                (left, np.array([MISSING])), "erratum I13: half of their move is missing"),
         _small("Fig. 13", "the same, move not fed forward", "um",
                (found, np.array([MISSING])), "two minutes after the move"),

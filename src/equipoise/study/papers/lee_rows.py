@@ -69,7 +69,7 @@ def singularity_row(large: Manoeuvre) -> PaperRow:
     close = bool(ours) and bool(np.all(np.abs(np.subtract(ours, SINGULAR)) <= NEARLY))
     agreement = Agreement.AGREES if close else Agreement.DIFFERS
     return PaperRow("Fig. 6", "singularity of the gyros, from and to", "s", SINGULAR, ours,
-                    agreement, "gains are chosen so that it is met; none is printed")  # fmt: skip
+                    agreement, "gains are chosen to match; none is printed")  # fmt: skip
 
 
 def error_row(place: str, run: Manoeuvre, method: str) -> PaperRow:

@@ -62,8 +62,8 @@ def manual_row(found: LawSummary) -> PaperRow:
     """Return what a person leaves beside what people are reported to."""
     ours = found.torque.most / MN_M
     agreement = no_larger([ours], [BY_HAND / MN_M])
-    why = f"{found.runs} platforms, most of 95 %; weights of 1 g, told where by the program"
-    return PaperRow("section 3", "torque that balancing by hand leaves", "mN m",
+    why = f"{found.runs} platforms, worst of 95 %; weights of 1 g, placed as the program states"
+    return PaperRow("section 3", "torque left by manual balancing", "mN m",
                     (BY_HAND / MN_M,), (ours,), agreement, why)  # fmt: skip
 
 

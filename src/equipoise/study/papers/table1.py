@@ -82,8 +82,8 @@ class Left:
 
 LSM = Procedure("compensation", "simplified_increments")
 FEW_ROWS = (
-    "500 rows show the height of a nearly balanced platform to some um, and nobody levels it "
-    "before the next"
+    "500 rows show the height of a nearly balanced platform to some um, and it is not "
+    "levelled before the next"
 )
 TWO_STEPS = Procedure("law", "underactuated")
 OURS = Procedure("law", "measure_and_move")

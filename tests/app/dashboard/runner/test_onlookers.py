@@ -111,7 +111,7 @@ def test_an_estimate_that_fails_again_and_again_is_reported_once(room, monkeypat
     monkeypatch.setattr(display, "grown", fails)
     room.turn(20)
     assert [step["sentence"] for step in room.reported.steps] == [
-        "The live estimate begins anew: in the view"
+        "The live estimate restarts: in the view"
     ]
     assert len(np.unique(room.reported.rows("pose")[:, 0])) > 30
 

@@ -11,7 +11,7 @@ def plain_step(x, P, H, b, R, lam=1.0):  # noqa: PLR0913, PLR0917 - the letters 
 
 
 def plain_rls(recursion, rows):
-    """Return the last x and P, free constants begun anew in each piece; no guards."""
+    """Return the last x and P, free constants restarted in each piece; no guards."""
     n, m, c = rows.A.shape
     free = m if rows.piece is not None else 0
     piece = np.zeros(n, int) if rows.piece is None else rows.piece

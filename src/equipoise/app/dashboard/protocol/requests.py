@@ -35,7 +35,7 @@ Tolerance = Annotated[float, Field(
     description=f"a length above 0, at most {LENGTH:g} m")]  # fmt: skip
 Text = Annotated[str, Field(
     max_length=LETTERS,
-    description=f"a text of at most {LETTERS} characters, each visible"), AfterValidator(_visible)
+    description=f"a text of at most {LETTERS} visible characters"), AfterValidator(_visible)
 ]  # fmt: skip
 Flag = Annotated[bool, Field(description="true or false")]
 Factor = Annotated[float, Field(
@@ -145,7 +145,7 @@ def sound(request: object) -> Request:
     """Return a request that keeps to the schema; InputError names what does not."""
     schema = SCHEMAS.get(type(request))
     if schema is None:
-        raise InputError("request", type(request).__name__, "one that this page has")
+        raise InputError("request", type(request).__name__, "a request that this page offers")
     try:
         return schema.validate_python(request)
     except ValidationError as error:

@@ -71,8 +71,8 @@ def real(testbed: Testbed) -> Generator[Station]:
 
 def let_go(bench: RealBench, report: Callable[[str], None]) -> None:
     """Bring the masses home, say that the platform is to be let go, and wait for the hand."""
-    report("The masses go home: hold the platform.")
+    report("The masses move home: hold the platform.")
     bench.start()
-    report("Masses are at home: let the platform go.")
+    report("Masses are at home: release the platform.")
     bench.read(HAND)
     bench.watch()

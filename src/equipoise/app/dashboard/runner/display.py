@@ -68,7 +68,7 @@ class Display:
         del self.observed[: -int(REMEMBERED / SLICE)]
 
     def _estimate(self, t: float, rows: Recording) -> None:
-        """Let the estimate grow; one that fails begins anew."""
+        """Let the estimate grow; one that fails restarts."""
         try:
             self._posterior, self._track = grown(self._posterior, rows)
             self.estimate = estimated(self._posterior)
@@ -76,7 +76,7 @@ class Display:
             self._posterior, self._track = LiveEstimate(self._testbed), None
             failed, self._failed = self._failed, True
             if not failed:
-                self._report(f"The live estimate begins anew: {error}")
+                self._report(f"The live estimate restarts: {error}")
 
     def _draw(self, t: float, rows: Recording) -> None:
         self._post.rows(t, parts_of(rows, self._testbed, self._posterior, self._track))

@@ -58,7 +58,7 @@ class Desk:
         if isinstance(request, at_once):
             self._guarded(request, self._at_once)
         elif self._busy:
-            self._runner.say("Not now: a balancing is under way. Stop it first.")
+            self._runner.say("Balancing is in progress: stop it first.")
         else:
             self._next = request
 
@@ -93,7 +93,7 @@ class Desk:
             runner.stopping, runner.phase = True, "balancing"
         else:
             runner.station.bench.stop()
-            runner.note = "Every mass was halted where it is."
+            runner.note = "Every mass was halted."
 
     def _record(self, on: bool) -> None:
         runner = self._runner
@@ -105,7 +105,9 @@ class Desk:
     def _pause(self, on: bool) -> None:
         runner = self._runner
         if not runner.station.paced:
-            raise InputError("hold", "a real bench", "a hand: only a simulation can be held here")
+            raise InputError(
+                "hold", "a real bench", "a hand: only a simulated platform can be held here"
+            )
         if self._busy:
             runner.phase = "held" if on else "balancing"
         else:
@@ -129,9 +131,11 @@ class Desk:
     def _balance(self, request: requests.Balance) -> None:
         station = self._runner.station
         if station.kind == "replayed":
-            raise InputError("balance", "a recording", "a platform: what is past cannot be moved")
+            raise InputError("balance", "a recording", "a platform: a replay cannot be moved")
         if station.kind == "real" and not request.held:
-            raise InputError("the platform", "not said to be held", "somebody who holds it level")
+            raise InputError(
+                "the platform", "not confirmed to be held", "a person who holds it level"
+            )
         goal = Goal(np.array(request.target), np.array(request.tolerance))
         limits = Limits(None, request.max_time, 0.0, request.law)
         self._runner.balance(goal, limits)
@@ -147,7 +151,7 @@ class Desk:
         """Show another platform, a recording, or another time of it."""
         runner, bed = self._runner, self._runner.station.testbed
         if runner.station.kind == "real":
-            raise InputError("another view", "a real bench", "a dashboard of its own for it")
+            raise InputError("another view", "a real bench", "a separate dashboard for it")
         runner.note = ""
         if isinstance(request, requests.Anew) or (
             isinstance(request, requests.Replay) and not request.name

@@ -112,7 +112,11 @@ class Runner:
             self.recorder.end()
         except EquipoiseError as error:
             return str(error)
-        return "" if name is None else f"{name}: the recording ended: something else is shown now."
+        return (
+            ""
+            if name is None
+            else f"{name}: the recording ended, since another source is shown now."
+        )
 
     # --- Time passes -------------------------------------------------------------------------
 
@@ -166,7 +170,7 @@ class Runner:
             return
         if not tilt(rows.attitude.values[-1], bed.up) <= bed.tilt_at_stop:  # nor what is no number
             self.phase = "paused"
-            self.note = "The platform was caught: it tilted to its limit."
+            self.note = "The platform was caught at its tilt limit."
 
     # --- What is done ------------------------------------------------------------------------
 
@@ -190,7 +194,7 @@ class Runner:
         """Balance; a real platform after a practice in simulation, once its masses are home."""
         bench = self.station.bench
         if isinstance(bench, RealBench):
-            self.say("Practising on a simulated platform ...")
+            self.say("Practice on a simulated platform ...")
             practised(bench.testbed, goal, limits)
             let_go(bench, self.say)
         return run(bench, goal, limits, self.step, Through(self._replayed, as_they_come))

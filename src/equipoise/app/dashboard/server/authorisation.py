@@ -23,9 +23,9 @@ class Guard:
     def take(self, page: str, token: str) -> str:
         """Let a page command; return why not, or nothing."""
         if not self.is_right(token.strip()):
-            return "That is not the token which was printed when the dashboard started."
+            return "Wrong token. The token was printed when the dashboard started."
         if self._commander not in (None, page):
-            return "Another page commands; release it there, or close that page."
+            return "Another page is in command; release it there, or close that page."
         self._commander = page
         return ""
 

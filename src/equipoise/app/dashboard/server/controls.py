@@ -89,7 +89,7 @@ class Controls:
         self.law.element.props("dense outlined options-dense label=Law")
         self.target = triple("Target", TARGET_UM)
         self.tolerance = triple("Tolerance", TOLERANCE_UM)
-        self.held = switch("q-checkbox", "Somebody holds the platform level")
+        self.held = switch("q-checkbox", "A person holds the platform level")
         self.held.element.props("dense")
         self.held.element.set_visibility(self._counter.watch.about.get("bench") == "real")
         ui.separator()

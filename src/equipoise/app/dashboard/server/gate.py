@@ -119,17 +119,17 @@ class Gate:
         headers = request.headers
         host, origin = headers.get("host", ""), headers.get("origin")
         if host not in self.doors.hosts:
-            return 403, "This dashboard is not at that host: open the address that was printed."
+            return 403, "This dashboard is not served at that host: open the printed address."
         needs_origin = request.scope["type"] == "websocket" and self.doors.exposed
         if (origin is None and needs_origin) or not (origin is None or self.doors.welcomes(origin)):
             return 403, "A page of another origin may not use this dashboard."
         if headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
-            return 403, "Another site has led here: type the address that was printed yourself."
+            return 403, "Another site linked here: type the printed address yourself."
         return None
 
     def _unauthorised(self, request: HTTPConnection) -> Refusal | None:
         if self.doors.exposed and not self.guard.is_right(request.cookies.get(COOKIE, "")):
-            return 401, "The token is missing or wrong: open the address that was printed."
+            return 401, "The token is missing or wrong: open the printed address."
         return None
 
     def _too_often(self, scope: Scope) -> Refusal | None:
@@ -172,7 +172,7 @@ def _unknown(scope: Scope) -> Refusal | None:
     if scope["path"] == SHELL_SOCKET and not (
         scope["type"] == "websocket" and socket_messages.opens(scope)
     ):
-        return 404, "Here is the socket of the page's own script alone."
+        return 404, "This address serves the socket of the page's own script only."
     if scope["type"] == "http" and scope["method"] not in ("GET", "HEAD"):
         return 405, "The dashboard is read with GET; a page commands through its socket."
     return None

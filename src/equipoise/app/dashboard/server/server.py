@@ -50,7 +50,7 @@ class RemoteRunner:
         try:
             kind, what = self.pipe.recv()
         except (EOFError, OSError):
-            raise EquipoiseError("the runner of the dashboard has ended at once") from None
+            raise EquipoiseError("the runner of the dashboard ended at once") from None
         if kind == "failed":
             raise EquipoiseError(what)
 

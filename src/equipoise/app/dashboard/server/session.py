@@ -32,7 +32,7 @@ class Session(AbstractContextManager["Session"]):
         yield f"The dashboard is at http://{bracketed(host)}:{port}{query}"
         yield f"Token, to command: {self._token}"
         if self._exposed:
-            yield "Others on the network see what is sent: it is not encrypted."
+            yield "Others on the network can read the traffic: it is not encrypted."
         yield "Ctrl-C ends it and halts every mass."
 
     def serve(self) -> None:
@@ -83,7 +83,7 @@ def listening(host: str, port: int) -> socket.socket:
     except OSError as error:
         at.close()
         why = error.strerror or str(error)
-        raise InputError(f"{host}:{port}", why, "an address and a port that are free") from error
+        raise InputError(f"{host}:{port}", why, "a free address and port") from error
     return at
 
 

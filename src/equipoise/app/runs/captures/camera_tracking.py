@@ -120,7 +120,7 @@ def recording_of_track(track: Track, source: str) -> Recording:
     if not track.t:
         why = "; ".join(f"{each.count}: {each.reason.sentence}" for each in track.unseen)
         found = f"an attitude in none of {track.pictures} pictures" + (f" ({why})" if why else "")
-        raise InputError(source, found, "the board in view, as its settings describe it")
+        raise InputError(source, found, "the board in view, as described in the settings")
     grows = np.concatenate([[True], np.diff(np.maximum.accumulate(track.t)) > 0])
     values = continuous(np.array(track.attitudes)[grows])
     return Recording(attitude=Samples(np.array(track.t)[grows], values), source=source)

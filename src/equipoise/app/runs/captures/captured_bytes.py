@@ -31,7 +31,7 @@ LINES = ("vectornav", "lines")  # whose rows end where a line does
 DATAGRAMS, NAMED = "udp:0", "udpout:file:0"  # how a driver is to read pieces
 ROW = 200  # bytes of a row, here and in the recording (chosen: measured are 130)
 SHOWN = 60  # bytes, chosen: of what comes first, where nothing is understood
-WANTED = "bytes of a sensor, as they were saved"
+WANTED = "raw bytes of a sensor"
 
 
 class Capture:
@@ -63,7 +63,7 @@ class Capture:
         try:
             rows = self._rows.rows(readings, piece.t, self.driver.counts.corrupt - before)
         except Timeless:
-            wanted = "--rate-hz, at which they came"
+            wanted = "--rate-hz, the rate of the rows"
             raise InputError(self.file, "rows and a file without times", wanted) from None
         self._meter.take(ROW * len(rows))
         for row in rows:
@@ -83,8 +83,10 @@ class Capture:
         jumps = sum(clock.jumps for clock in received.clocks.values())
         notes = (
             health.sentence,
-            _counted(jumps, "jump", "of the device's clock; rows go on after the one before"),
-            _counted(self._rows.set_back, "step back", "of the capture's clock; rows go on"),
+            _counted(jumps, "jump", "of the device's clock; numbering continues"),
+            _counted(
+                self._rows.set_back, "step back", "of the capture's clock; numbering continues"
+            ),
             aside,
             f"rows without times were spaced at {self._rate:g} Hz" if self._rows.spaced else "",
             *self._ends(),
@@ -96,9 +98,9 @@ class Capture:
         if self.unit.port.address != STREAM or self.unit.driver not in LINES:
             return
         if self.unit.driver == "lines":
-            yield "the first line is left out: it may have lost its beginning"
+            yield "the first line is ignored: its beginning may be missing"
         if not self._last.endswith((b"\n", b"\r")):
-            yield "the last line is left out: it has no end"
+            yield "the last line is ignored: it is incomplete"
 
 
 def recording_of_capture(

@@ -8,8 +8,8 @@ from equipoise.app.text.json_shape import View
 from equipoise.study.papers.items import ITEMS, Item
 
 NOTE = (
-    "I: Ivanov et al. 2021. R: da Silva et al. 2021, the review. L: Lee et al. What shows an item "
-    "is a test or a decision in the repository."
+    "I: Ivanov et al. 2021. R: da Silva et al. 2021, the review. L: Lee et al. A test "
+    "or a decision in the repository shows each item."
 )
 
 

@@ -134,7 +134,7 @@ def ratio_text(ratios: Ratios) -> str:
 def failures(found: MethodComparison) -> Iterator[str]:
     """Yield why methods failed, those together that say the same."""
     if any(0 < r.stated.part < r.stated.of for m in found.methods for r in (m.com, m.inertia)):
-        yield "*: only part of what the records determine is stated."
+        yield "*: states only part of what the records determine."
     reasons = dict[str, list[str]]()
     for method in found.methods:
         if method.failed:
@@ -160,7 +160,7 @@ def com_table(found: MethodComparison) -> Table:
         "sd: of the errors over the runs. RMSE: of the vector, as far as it is "
         "stated. Bounds are root mean squares over the records. Masses at home; a "
         "method that states com only at the end of the record, such as the tracker, "
-        "is judged there, with its bound."
+        "is compared there."
     )
     columns = (Column(), *map(number, headings))
     return table("Errors of the centre of mass, um", columns, lines, (remark,))

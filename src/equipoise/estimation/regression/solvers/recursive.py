@@ -2,7 +2,7 @@
 
     K = P H^T (lam R + H P H^T)^-1,   x += K (b - H x),   P = (P - K H P) / lam
 
-H = [A, E] where a piece has free constants (they are states beside the unknowns, and begin anew
+H = [A, E] where a piece has free constants (they are states beside the unknowns, and restart
 with each piece), lam = exp(-dt / forget). R is diagonal; the equations of a row are therefore taken
 one after the other, which is the same and needs no inverse. (da Silva 2021 Eqs. 22-25 are the
 scalar case, printed with Phi where Phi^T belongs: this is their matrix form. By the matrix

@@ -79,7 +79,7 @@ class Grbl(BoardDriver):
         self._suspension = Suspension()
 
     def opened(self, t: float) -> None:
-        """Begin anew, with a reset."""
+        """Restart, with a reset."""
         self._talk.begin()
         self._begin()
         self.state = BoardState(Phase.CONNECTING)

@@ -8,7 +8,7 @@ from equipoise.hardware.boards.grbl.talk import CANCEL, HOLD, QUERY, RESET, RESU
 from equipoise.hardware.transport.line_splitter import Lines
 
 AT_ONCE = {
-    RESET: "begin anew (0x18)",
+    RESET: "restart (0x18)",
     HOLD: "hold (!)",
     RESUME: "go on (~)",
     CANCEL: "throw the jog away (0x85)",

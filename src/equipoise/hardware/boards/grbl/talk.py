@@ -2,7 +2,7 @@
 
     line    ok or error:n answers the one under way
     ?       asked again and again; a report answers the oldest question that is open
-    0x18    the board begins anew; until it says so, nothing that it says answers a line
+    0x18    the board restarts; until it says so, nothing that it says answers a line
 
 A report is as fresh as its question: what a line did is seen only in a report that was asked for
 after the line was answered. A report is taken for that of the oldest question that is open, and
@@ -69,7 +69,7 @@ class GrblTalk:
         self.reset()
 
     def reset(self) -> None:
-        """Let the board begin anew; lines wait until it has."""
+        """Let the board restart; lines wait until it has."""
         self._urgent = RESET
         self.queue.cut()
         self.awaiting = True

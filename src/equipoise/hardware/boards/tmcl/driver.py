@@ -66,7 +66,7 @@ class Tmcl(BoardDriver):
         self._mute = False  # it was silent; nothing is said until somebody wants it
 
     def opened(self, t: float) -> None:
-        """Begin anew."""
+        """Restart."""
         self._talk.begin()
         self._begin(t)
         self.state = BoardState(Phase.CONNECTING)

@@ -273,7 +273,7 @@ class GrblMachine(ABC):
     # --- Beginning ---------------------------------------------------------------------------
 
     def _reset(self) -> None:
-        """Begin anew; what is under way stops dead, and then the position counts as lost."""
+        """Restart; what is under way stops dead, and then the position counts as lost."""
         if not (self.powered and self._booted):
             return
         slowing = (

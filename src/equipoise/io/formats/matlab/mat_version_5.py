@@ -9,7 +9,7 @@ data stand in the second word, the length then in the upper half of the first), 
 multiples of 8. A matrix holds elements: flags (the class in the lowest byte, 0x0800: complex),
 dimensions, name, real part, column by column. A structure has in place of the real part the
 length of a field's name, all names, and a matrix without a name for each field. Cells, texts,
-objects, complex numbers and arrays of structures are left aside.
+objects, complex numbers and arrays of structures are ignored.
 """
 
 import math
