@@ -88,7 +88,7 @@ class MoveRefused(EquipoiseError):
 
     def __init__(self, mass: str, at: float, requested: float, low: float, high: float) -> None:
         super().__init__(
-            f"mass {mass}: at {at / MM:.3g} mm, asked for {requested / MM:.3g} mm; "
+            f"mass {mass}: at {at / MM:.3g} mm, requested {requested / MM:.3g} mm; "
             f"its travel is {low / MM:.3g} to {high / MM:.3g} mm; nothing was moved"
         )
         self.mass = mass
@@ -100,7 +100,7 @@ class DriveRefused(EquipoiseError):
 
     def __init__(self, device: str, requested: float, limit: float, unit: str) -> None:
         super().__init__(
-            f"device {device}: asked for {requested:.4g} {unit}; its limit is {limit:.4g} {unit}; "
+            f"device {device}: requested {requested:.4g} {unit}; its limit is {limit:.4g} {unit}; "
             f"nothing was driven"
         )
         self.device = device

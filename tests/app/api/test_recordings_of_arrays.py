@@ -143,13 +143,13 @@ def test_dates_are_times():
 
 WRONG = {
     "t": ({"t": np.zeros((N, 2)), "q": Q}, r"t: found an array of shape \(100, 2\)"),
-    "t of words": ({"t": ["a"] * N, "q": Q}, "t: found what is neither numbers nor dates"),
+    "t of words": ({"t": ["a"] * N, "q": Q}, "t: found neither numbers nor dates"),
     "no t": ({"t": [], "q": Q}, r"t: found an array of shape \(0,\)"),
     "q across": ({"q": Q.T}, r"q: found an array of shape \(4, 100\); wanted \(100, 4\): a row"),
     "q of three": ({"q": Q[:, :3]}, r"q: found an array of shape \(100, 3\)"),
     "q too short": ({"q": Q[:-1]}, r"q: found an array of shape \(99, 4\).*100 times in t"),
-    "q of words": ({"q": [["a"] * 4] * N}, "q: found what is no array of numbers"),
-    "ragged q": ({"q": [[1, 0, 0], [1, 0, 0, 0]]}, "q: found what is no array of numbers"),
+    "q of words": ({"q": [["a"] * 4] * N}, "q: found not an array of numbers"),
+    "ragged q": ({"q": [[1, 0, 0], [1, 0, 0, 0]]}, "q: found not an array of numbers"),
     "order": ({"q": Q, "order": "wxzy"}, "order: found 'wxzy'; did you mean 'wxyz'"),
     "turns": ({"q": Q, "turns": "body to lab"}, "turns: found 'body to lab'; did you mean 'body"),
     "both": ({"q": Q, "euler": Q[:, :3]}, "q and euler: found both"),

@@ -104,7 +104,7 @@ def test_a_time_that_nobody_can_wait_is_refused(shown, duration):
 REFUSED = {
     "beyond the rail": (
         {"x": 1 * MM, "y": 15.1 * MM}, MoveRefused,
-        "mass y: at 0 mm, asked for 15.1 mm; its travel is -15 to 15 mm; nothing was moved",
+        "mass y: at 0 mm, requested 15.1 mm; its travel is -15 to 15 mm; nothing was moved",
     ),
     "a mass that is not there": (
         {"x": 1 * MM, "w": 0.0}, InputError, "move: found a mass 'w'; wanted one of x, y, z",

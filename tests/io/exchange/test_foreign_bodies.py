@@ -79,7 +79,7 @@ def test_one_product_alone_is_shown_by_two_points_and_not_by_principal_moments()
 
 def test_blocks_of_two_bodies_are_refused():
     text = (CAD / "fusion.txt").read_text(encoding="utf-8")
-    with pytest.raises(InputError, match="inertias about two points that no one body has"):
+    with pytest.raises(InputError, match="inertias about two points that no single body has"):
         body_of(parse_mass_text(text.replace("14240.000 g", "15240.000 g"), "a text"), "a text")
 
 

@@ -141,6 +141,6 @@ def a_gyro_that_writes_1e30(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(ours(marked(motion, SOME, "w", 1e30), ROS)))
 
 
-@answered(Refused(r"-999, which stands for no reading \(149 of 2401", r"--bad-rows 0\.07"))
+@answered(Refused(r"-999, a marker of missing data \(149 of 2401", r"--bad-rows 0\.07"))
 def six_percent_of_minus_999(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(ours(marked(motion, MANY, "qw", -999.0), ROS)))

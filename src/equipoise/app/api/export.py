@@ -33,7 +33,7 @@ def export(
     Raises
     ------
     InputError
-        For a run without an estimate, without a mass, or with an inertia that no body can have.
+        For a run without an estimate, without a mass, or with a physically inconsistent inertia.
     """
     return exported(run, to, out, testbed)[0]
 

@@ -34,7 +34,7 @@ class Part(Table):
     shape: Shape = Field(description="tensor: inertia_kg_m2 is stated; unknown: swings show it")
     mass_g: Positive
     mass_sd_percent: NotNegative = Field(
-        0.5, description="standard deviation; default: a kitchen scale"
+        0.5, description="standard deviation; default: kitchen scale"
     )
     size_mm: list[Positive] = Field(
         [],
@@ -42,24 +42,24 @@ class Part(Table):
             f"{shape}: {', '.join(of)}" for shape, of in DIMENSIONS.items() if of
         ),
     )
-    size_sd_mm: NotNegative = Field(0.5, description="standard deviation of each; default: a ruler")
-    centre_mm: Triple = Field(description="its centre of mass, from P, body axes")
+    size_sd_mm: NotNegative = Field(0.5, description="standard deviation of each; default: ruler")
+    centre_mm: Triple = Field(description="centre of mass of the part, from P, body axes")
     centre_sd_mm: NotNegative = Field(
         1.0,
-        description="standard deviation of each component; default: a ruler, uneven filling",
+        description="standard deviation of each component; default: ruler, uneven filling",
     )
     turn_deg: Triple = Field(
-        [0.0, 0.0, 0.0], description="rotation vector from the body's axes to the part's own"
+        [0.0, 0.0, 0.0], description="rotation vector from body axes to the axes of the part"
     )
     turn_sd_deg: NotNegative = Field(
         1.0, description="standard deviation about each axis; default: by eye"
     )
     inertia_kg_m2: Inertia | None = Field(
-        None, description="of a tensor: about its own centre of mass, in its own axes"
+        None, description="of a tensor: about the part's centre of mass, in the part's axes"
     )
     inertia_sd_percent: NotNegative = Field(
         10.0,
-        description="standard deviation of its own inertia; default: a box that is not evenly filled",
+        description="standard deviation of the part's inertia; default: uneven filling",
     )
 
     def record(self, where: str) -> model.Part:
@@ -80,36 +80,52 @@ class Oscillation(Table):
     """A swing about an axis that the support holds, by gravity or on a torsion wire."""
 
     name: Visible
-    axis: Direction = Field(description="body axes; level, unless a wire turns it back")
-    axis_sd_deg: NotNegative = Field(0.5, description="standard deviation; default: by a square")
-    through_mm: Triple = Field([0.0, 0.0, 0.0], description="a point of the axis, from P")
-    period_s: Positive | None = Field(None, description="left out where a recording shows it")
+    axis: Direction = Field(
+        description="body axes; horizontal, unless a wire gives the restoring torque"
+    )
+    axis_sd_deg: NotNegative = Field(
+        0.5, description="standard deviation; default: set with a square"
+    )
+    through_mm: Triple = Field([0.0, 0.0, 0.0], description="a point on the axis, from P")
+    period_s: Positive | None = Field(None, description="omit it where a recording determines it")
     recording: Visible | None = Field(
-        None, description="file with the attitude of this swing, beside the parts file: its period"
+        None, description="recording of this swing, beside the parts file, for its period"
     )
     period_sd_s: Positive = Field(
-        0.02, description="standard deviation; default: twenty swings, stopped by hand to 0.4 s"
+        0.02,
+        description="standard deviation; default: twenty swings timed by hand, to 0.4 s in all",
     )
     amplitude_deg: Annotated[float, Field(ge=0, lt=90)] = Field(
-        5.0, description="to either side, amid the swings that were timed; chosen: a gentle push"
+        5.0,
+        description=(
+            "amplitude to each side, halfway through the timed swings; default: a gentle push"
+        ),
     )
     amplitude_sd_deg: NotNegative = Field(1.0, description="standard deviation; default: by eye")
     decay_s: Positive | None = Field(
-        None, description="in which the amplitude falls by e; if omitted: no damping"
+        None, description="time in which the amplitude falls by a factor e; if omitted: no damping"
     )
     stiffness_N_m: Positive | None = Field(
-        None, description="of the wire, for a radian, the axis upright; if omitted: gravity's"
+        None,
+        description=(
+            "torsional stiffness of the wire, per radian, axis vertical; if omitted: "
+            "gravity restores"
+        ),
     )
     stiffness_sd_percent: NotNegative = Field(
-        1.0, description="standard deviation; default: a known body on it"
+        1.0, description="standard deviation; default: calibrated with a known body"
     )
-    fixture_kg_m2: NotNegative = Field(0.0, description="of what swings too, about the axis")
+    fixture_kg_m2: NotNegative = Field(
+        0.0, description="of everything else that swings, about the axis"
+    )
     fixture_sd_kg_m2: NotNegative = 0.0
-    weight_g: NotNegative = Field(0.0, description="put on for this swing, small beside its arm")
+    weight_g: NotNegative = Field(
+        0.0, description="added for this swing; its size is small compared with its arm"
+    )
     weight_sd_g: NotNegative = Field(
         0.1, description="standard deviation; default: a kitchen scale"
     )
-    weight_mm: Triple = Field([0.0, 0.0, 0.0], description="where its centre is, from P")
+    weight_mm: Triple = Field([0.0, 0.0, 0.0], description="position of its centre, from P")
     weight_sd_mm: NotNegative = Field(
         0.5, description="standard deviation of each component; default: a ruler"
     )

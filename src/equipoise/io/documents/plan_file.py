@@ -32,11 +32,11 @@ class Start(Table):
     rate_deg_s: Triple = Field([0.0, 0.0, 0.0], description="body axes")
     tilt_sd_deg: NotNegative = Field(
         round(HAND_TILT / DEG, 9),
-        description="standard deviation; default: how well a hand meets a tilt",
+        description="standard deviation; default: tilt set by hand",
     )
     rate_sd_deg_s: NotNegative = Field(
         round(HAND_RATE / DEG, 9),
-        description="standard deviation of each component; default: of a push",
+        description="standard deviation of each component; default: release by hand",
     )
 
 
@@ -61,7 +61,7 @@ class Wave(Table):
     gimbal_rate_deg_s: float | None = None
     period_s: Positive
     phase: Annotated[float, Field(ge=0, lt=1)] = Field(
-        0.25, description="of a period, at the start"
+        0.25, description="phase at the start, in periods"
     )
 
 

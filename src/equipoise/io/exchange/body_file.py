@@ -16,7 +16,7 @@ def read_foreign_body(
     """Return a file's body about the origin of its axes, and what shows the sign of its products.
 
     ``notation`` says it of a CAD program's text in which nothing shows it. InputError for what
-    cannot be read, and for an inertia that no body can have.
+    cannot be read, and for a physically inconsistent inertia.
     """
     text, source = read_text(path, WANTED), str(path)
     if not text.lstrip().startswith("<"):
@@ -24,6 +24,6 @@ def read_foreign_body(
     body = body_of_xml(text, source)
     if not is_possible(body):
         raise InputError(
-            source, "an inertia that no body can have", "a file that a simulator takes"
+            source, "a physically inconsistent inertia", "a file that a simulator takes"
         )
     return body, "products: tensor, as such files have them"

@@ -52,7 +52,7 @@ def body_of(
     kind: Notation = next(iter(kinds), "tensor")
     inertia_C = _central(stated, SIGNS[kind])
     if smallest_second_moment(inertia_C) <= 0:
-        raise InputError(source, "an inertia that no body can have", "the units as printed")
+        raise InputError(source, "a physically inconsistent inertia", "the units as printed")
     reason = ", ".join(shown) or ("as stated" if said else "no products")
     return from_centre(stated.mass, stated.centre, inertia_C), f"products: {kind} ({reason})"
 
@@ -137,5 +137,5 @@ def _check_points(stated: MassText, source: str) -> None:
         return
     due = elements(parallel_axis(stated.mass, stated.centre))[:3]
     if _relative((about_O.six - about_C.six)[:3] - due, about_O.six[:3]) > DIGITS:
-        found = "inertias about two points that no one body has"
+        found = "inertias about two points that no single body has"
         raise InputError(source, found, "mass, centre of mass and both blocks of the same body")

@@ -84,7 +84,7 @@ def read_body(path: str | Path, testbed: Testbed | None = None) -> tuple[StatedB
     numbers = np.array([values[name].value for name in names])
     body = MassProperties(mass, numbers[6:], tensor_of(numbers[:6]))
     if not is_possible(body):
-        raise InputError(where, "an inertia that no body can have", "an estimate that is usable")
+        raise InputError(where, "a physically inconsistent inertia", "an estimate that is usable")
     remarks = (f"Source: {file.name}. {found.outcome.sentence}",)
     return StatedBody(file.absolute().parent.name, body, covariance, remarks), found.outcome.usable
 

@@ -93,4 +93,4 @@ def _of_frames(content: Content, source: str) -> Iterator[bytes]:
         yield frame.decompress(chunk)
         at += len(chunk) - len(frame.unused_data)
     if frame is not None and not frame.eof:
-        raise EOFError("it ends within a frame")
+        raise EOFError("it ends in the middle of a frame")

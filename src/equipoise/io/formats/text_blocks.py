@@ -93,7 +93,7 @@ def _whole_lines(pieces: Iterator[bytes], source: str) -> Iterator[bytes]:
         end = _end_of_lines(held)
         if len(held) - end > LONGEST:
             line = before + held.count(b"\n", 0, end) + 1
-            found = f"more than {LONGEST} bytes without an end of the line"
+            found = f"more than {LONGEST} bytes without a line end"
             raise InputError(f"{source}, line {line}", found, "a row of separated cells")
         rest = held[end:]
         before += held.count(b"\n", 0, end)

@@ -24,7 +24,7 @@ CELLS = 10_000  # of a row (chosen: ten times the columns of any export)
 PREFIX = re.compile(r"\[?\d{1,2}:\d{2}:\d{2}([.,]\d+)?(\] ?| ?-> ?|\s+)")
 # As NumPy and MATLAB begin a header; a column %time is one of ROS.
 COMMENT = re.compile(r"\s*(#+\s*|%+\s+)")
-PREFIXED = "A terminal's clock stands before each line; it was ignored."
+PREFIXED = "Each line starts with the terminal's clock, which was ignored."
 FIRST_CELL = itemgetter(0)
 WANTED = "a row of separated cells"
 csv.field_size_limit(1 << 20)  # characters; a cell beyond this is not a table's

@@ -55,7 +55,7 @@ def _times(name: str, values: Any) -> NDArray[Any]:
         try:
             array = array.astype(np.float64)
         except (TypeError, ValueError) as error:
-            raise InputError(where(name), "what is neither numbers nor dates", wanted) from error
+            raise InputError(where(name), "neither numbers nor dates", wanted) from error
     if array.ndim != 1 or not len(array):
         raise InputError(where(name), f"an array of shape {array.shape}", wanted)
     return array

@@ -121,7 +121,7 @@ def wraps_in(angles: Floats) -> int:
 
 def wrap_note(count: int) -> Notes:
     """Say how often an angle wrapped."""
-    reported = f"attitude: {count} wraps of an angle by a whole turn; taken as turning on."
+    reported = f"attitude: {count} wraps of an angle by a whole turn; unwrapped."
     return (reported,) if count else ()
 
 

@@ -165,7 +165,8 @@ def _without_overflow(
     row = int(np.argmax(mask))
     column, place = columns.names[int(np.argmax(over[row]))], int(channel.rows[row])
     where = f"{table.source}, {table.place(place)}, column '{column}'"
-    said = f"{table.numbers(column).values[place]:.9g}, in SI beyond {most:g}, which no bench has"
+    value = table.numbers(column).values[place]
+    said = f"{value:.9g}, beyond {most:g} in SI, more than any bench reaches"
     wanted = "a reading, with the unit, factor and offset that it has"
     fault = FaultyRows(RowFault.BEYOND, channel.rows[mask], where, said, wanted)
     return channel.keep(~mask), [*found, fault]
@@ -203,7 +204,7 @@ def _marked_rows(
     named = zip(columns.names, numbers, strict=True)
     column = next(column for column, each in named if row in source.marked(column, each.values))
     where = f"{table.source}, {table.place(row)}, column '{column}'"
-    found = f"{table.numbers(column).values[row]:.9g}, which stands for no reading"
+    found = f"{table.numbers(column).values[row]:.9g}, a marker of missing data"
     wanted = f"a reading, or {table.blank} for none"
     return [FaultyRows(RowFault.SENTINEL, faulty, where, found, wanted)]
 

@@ -21,9 +21,7 @@ def checked(name: str, values: Any, shape: tuple[int, ...], time: str) -> Floats
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise InputError(
-            where(name), "what is no array of numbers", _wanted(shape, time)
-        ) from error
+        raise InputError(where(name), "not an array of numbers", _wanted(shape, time)) from error
     if array.shape != shape:
         found = f"an array of shape {_shown(array.shape)}"
         raise InputError(where(name), found, _wanted(shape, time))

@@ -23,7 +23,7 @@ Notes = tuple[str, ...]
 STRAY = 1000.0  # times all the rest, chosen: no bench falls silent for so long and goes on
 FEW = 0.1  # share of the rows that may be stray (chosen)
 FEWEST = 10  # rows together that a wrong clock may have stamped, of however few (chosen)
-WANTED = "times that grow from row to row"
+WANTED = "increasing times"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

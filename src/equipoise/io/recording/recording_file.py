@@ -73,7 +73,7 @@ def columns_for(table: Table, known: ColumnMap | None, options: ReadOptions) -> 
     if options.columns is not None:
         return options.columns
     if known is not None and dialect is not None:
-        found = f"dialect '{dialect}' for a log that says itself what it holds"
+        found = f"dialect '{dialect}' for a self-describing log"
         raise InputError(table.source, found, "no dialect, or a column map (--columns)")
     if known is not None:
         return known

@@ -22,11 +22,13 @@ from equipoise.model.errors import InputError
 
 GAIN_SD: float = Field(
     1.0,
-    description="standard deviation of what it gives, relative; default: a data sheet; 0: exact",
+    description="standard deviation of its output, relative; default: data sheet; 0: exact",
 )
 MOUNTING_SD: float = Field(
     0.2,
-    description="standard deviation of its axes about each direction across; default: bolted on; 0: exact",
+    description=(
+        "standard deviation of its axes about each transverse direction; default: bolted; 0: exact"
+    ),
 )
 
 
@@ -40,14 +42,14 @@ class ReactionWheel(RecordTable):
     max_torque_N_m: Positive
     speed_rpm: float = Field(0.0, description="at the start")
     speed_noise_rpm: NotNegative = Field(0.0, description="standard deviation of a tachometer row")
-    lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the torque")
+    lag_ms: NotNegative = Field(0.0, description="first-order lag from command to torque")
     gain_sd_percent: NotNegative = GAIN_SD
     mounting_sd_deg: NotNegative = MOUNTING_SD
 
     def record(self, where: str) -> model.ReactionWheel:
         """Return the wheel."""
         if abs(self.speed_rpm) > self.max_speed_rpm:
-            wanted = f"at most max_speed_rpm = {self.max_speed_rpm:g} either way"
+            wanted = f"at most max_speed_rpm = {self.max_speed_rpm:g} in either direction"
             raise InputError(f"{where}.speed_rpm", f"{self.speed_rpm:g}", wanted)
         inertia = self.max_momentum_N_m_s / (self.max_speed_rpm * key_factor("max_speed_rpm"))
         return record_of(model.ReactionWheel, self, where, inertia=inertia)
@@ -68,12 +70,12 @@ class ControlMomentGyro(RecordTable):
     max_rate_deg_s: Positive
     angle_deg: float = Field(0.0, description="at the start")
     angle_noise_deg: NotNegative = Field(0.0, description="standard deviation of an encoder row")
-    lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the rate")
+    lag_ms: NotNegative = Field(0.0, description="first-order lag from command to rate")
     gimbal_inertia_kg_m2: NotNegative = Field(
-        0.0, description="of all that turns with the gimbal, about the gimbal axis"
+        0.0, description="of everything that turns with the gimbal, about the gimbal axis"
     )
     asymmetry_kg_m2: float = Field(
-        0.0, description="inertia of the same about the spin axis less about the third axis"
+        0.0, description="the same inertia about the spin axis minus that about the third axis"
     )
     gain_sd_percent: NotNegative = GAIN_SD
     mounting_sd_deg: NotNegative = MOUNTING_SD
@@ -93,7 +95,7 @@ class Magnetorquer(RecordTable):
     name: Name
     axis: Direction
     max_dipole_A_m2: Positive
-    lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the dipole")
+    lag_ms: NotNegative = Field(0.0, description="first-order lag from command to dipole")
     gain_sd_percent: NotNegative = GAIN_SD
     mounting_sd_deg: NotNegative = MOUNTING_SD
 
@@ -105,17 +107,17 @@ class CoilPair(RecordTable):
     axis: Annotated[Direction, Holds("axis_N")] = Field(description="laboratory axes, z up")
     max_field_uT: Positive
     field_uT: float = Field(0.0, description="along its axis, at the start")
-    lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the field")
+    lag_ms: NotNegative = Field(0.0, description="first-order lag from command to field")
     gain_sd_percent: NotNegative = GAIN_SD
     mounting_sd_deg: NotNegative = MOUNTING_SD
     nonuniformity_percent: NotNegative = Field(
-        1.0, description="greatest deviation within the working volume; default: near its middle"
+        1.0, description="maximum deviation within the working volume; default: near its centre"
     )
 
     def record(self, where: str) -> model.CoilPair:
         """Return the coil pair."""
         if abs(self.field_uT) > self.max_field_uT:
-            wanted = f"at most max_field_uT = {self.max_field_uT:g} either way"
+            wanted = f"at most max_field_uT = {self.max_field_uT:g} in either direction"
             raise InputError(f"{where}.field_uT", f"{self.field_uT:g}", wanted)
         return record_of(model.CoilPair, self, where)
 
@@ -129,7 +131,7 @@ class JetPair(RecordTable):
     axis: Direction
     torque_N_m: Positive = Field(description="while on")
     min_pulse_ms: NotNegative = 0.0
-    lag_ms: NotNegative = Field(0.0, description="first-order, from the valve to the torque")
+    lag_ms: NotNegative = Field(0.0, description="first-order lag from valve to torque")
     gain_sd_percent: NotNegative = GAIN_SD
     mounting_sd_deg: NotNegative = MOUNTING_SD
 
@@ -140,7 +142,7 @@ class MagneticField(RecordTable):
     field_uT: Annotated[Triple, Holds("field_N")] = Field(description="laboratory axes, z up")
     noise_uT: Positive | None = Field(
         None,
-        description="standard deviation per axis of a magnetometer's row; if omitted: there is none",
+        description="standard deviation per axis of a magnetometer; if omitted: no magnetometer",
     )
 
     def record(self, where: str) -> model.MagneticField:
@@ -156,11 +158,13 @@ class Lamp(RecordTable):
 
     KIND = model.Lamp
 
-    warms_K: Positive = Field(description="what it shines on, in the end; a guess will do")
+    warms_K: Positive = Field(
+        description="final temperature rise where it shines; an estimate is sufficient"
+    )
     time_constant_s: Positive
     direction: Annotated[Direction | None, Holds("direction_N")] = Field(
         None,
-        description="to it, laboratory axes, z up: [sensor.sun] has rows while it is on",
+        description="direction to it, laboratory axes, z up: [sensor.sun] has rows while it is on",
     )
 
 

@@ -37,13 +37,15 @@ class Axis(RecordTable):
 
     mass: str
     letter: Annotated[str, Field(pattern=r"^([XYZABC]|[0-9])$")] = Field(
-        description="the board's name of the axis; of a Trinamic module the motor's number"
+        description="the board's name of the axis; for a Trinamic module the motor number"
     )
     steps_per_mm: Annotated[Positive, Holds("steps_per_m", 1 / MM)] = Field(
-        description="as set in the board, which is asked for it"
+        description="as set in the board, which is queried"
     )
-    zero_mm: float = Field(0.0, description="the board's position where the mass is at home")
-    reversed: bool = Field(False, description="the board counts against the mass's axis")
+    zero_mm: float = Field(0.0, description="the board's position when the mass is at home")
+    reversed: bool = Field(
+        False, description="the board counts in the direction opposite to the mass's axis"
+    )
 
 
 class Board(RecordTable):
@@ -53,7 +55,9 @@ class Board(RecordTable):
     driver: str = Field(description="grbl or tmcl")
     port: Address = Field(description=ADDRESSES)
     baud: Baud = 115200
-    homing: bool = Field(True, description="it has switches; else a person puts masses at home")
+    homing: bool = Field(
+        True, description="true: it has limit switches; false: a person moves masses home"
+    )
     axis: Annotated[list[Axis], Field(min_length=1), Holds("axes")]
 
     def record(self, where: str) -> model.MotorBoard:
@@ -72,10 +76,10 @@ class SensorUnit(RecordTable):
     gives: Annotated[list[Literal["attitude", "rate"]], Field(min_length=1)]
     alignment: Square = Field(IDENTITY, description="rotation from the sensor's axes to the body's")
     laboratory: Literal["z_up", "ned", "y_up"] = Field(
-        "z_up", description="the frame that its attitude refers to"
+        "z_up", description="reference frame of its attitude"
     )
     settings: dict[str, str | float | bool | list[str] | list[dict[str, float]]] = Field(
-        {}, description="the driver's own, such as the columns of a line, the tags of a board"
+        {}, description="driver settings, such as the columns of a line or the tags of a board"
     )
 
     def record(self, where: str) -> model.SensorUnit:
@@ -114,10 +118,10 @@ class Hardware(RecordTable):
         60.0, description="default: well above any free swing"
     )
     stale_s: Annotated[Positive, Holds("limits.stale")] = Field(
-        0.5, description="default: without a row or an answer for so long"
+        0.5, description="default: time without a row or an answer"
     )
     mismatch_mm: Annotated[Positive, Holds("limits.mismatch")] = Field(
-        1.0, description="default: between where a mass should be and where its board says it is"
+        1.0, description="default: between commanded and reported position"
     )
     board: Annotated[list[Board], Holds("boards")] = Field([])
     sensor: Annotated[list[SensorUnit], Holds("sensors")] = Field([])

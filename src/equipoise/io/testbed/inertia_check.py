@@ -28,16 +28,17 @@ def check_inertia(inertia: Matrix3, where: str) -> None:
     _check_symmetry(inertia, where)
     low, middle, high = np.linalg.eigvalsh(inertia)
     if low <= 0:
-        found = f"an impossible inertia with the principal moment {low:.4g} kg m2"
+        found = f"a physically inconsistent inertia with the principal moment {low:.4g} kg m2"
         raise InputError(where, found, "positive principal moments")
     if smallest_second_moment(inertia) <= 0:
         found = (
-            f"an impossible inertia: its principal moments break {high:.4g} < "
+            f"a physically inconsistent inertia: its principal moments break {high:.4g} < "
             f"{low:.4g} + {middle:.4g} = {low + middle:.4g} kg m2"
         )
         wanted = (
-            "each principal moment below the sum of the other two; of a measured inertia, beside "
-            f"its inertia_sd_percent, above it by {SURE:g} sd at most"
+            "each principal moment below the sum of the other two; a measured "
+            f"inertia, with its inertia_sd_percent, may exceed it by {SURE:g} sd at "
+            "most"
         )
         raise InputError(where, found, wanted)
 

@@ -47,8 +47,10 @@ class Platform(RecordTable):
     )
     inertia_sd_percent: Positive = Field(
         10.0,
-        description="standard deviation; default: usual for CAD; where it is stated, moments that no body can "
-        "have by chance of 3 sd at most are brought to the nearest possible",
+        description=(
+            "standard deviation; default: usual for CAD; if given, physically "
+            "inconsistent moments within 3 sd are replaced by the nearest consistent ones"
+        ),
     )
     about: Literal["C", "P"] = Field("C", description="C: centre of mass, P: centre of rotation")
     com_um: Annotated[Triple, Holds("body.com")] = Field(
@@ -61,7 +63,9 @@ class Platform(RecordTable):
     up: Direction | None = Field(None, description="body axis that points up when level")
     tilt_limit_deg: Annotated[float, Field(gt=0, le=180)] = Field(
         30.0,
-        description="where the platform meets its stop; default: usual for a table on a hemisphere",
+        description=(
+            "tilt at which the platform meets its stop; default: usual for a table on a hemisphere"
+        ),
     )
     gravity_m_s2: Positive = Field(9.80665, description="standard gravity")
     mass_sd_percent: NotNegative = Field(
@@ -73,11 +77,11 @@ class Platform(RecordTable):
     )
     momentum_sd_percent: NotNegative = Field(
         1.0,
-        description="standard deviation of momentum that is recorded as such; default: a data sheet",
+        description="standard deviation of recorded momentum; default: data sheet",
     )
     torque_sd_percent: NotNegative = Field(
         1.0,
-        description="standard deviation of torque that is recorded as such; default: a data sheet",
+        description="standard deviation of recorded torque; default: data sheet",
     )
 
     def body(self, where: str) -> tuple[MassProperties, tuple[Reason, ...]]:
@@ -113,34 +117,41 @@ class SlidingMass(RecordTable):
     home_mm: Triple
     axis: Direction
     travel_mm: Pair = Field(description="least and greatest displacement")
-    resolution_mm: NotNegative = Field(0.0, description="0: any displacement can be asked for")
-    accuracy_mm: NotNegative = Field(0.1, description="standard deviation; default: a lead screw's")
+    resolution_mm: NotNegative = Field(0.0, description="smallest step of a command; 0: continuous")
+    accuracy_mm: NotNegative = Field(0.1, description="standard deviation; default: lead screw")
     backlash_mm: NotNegative = 0.0
     speed_mm_s: Positive = Field(10.0, description="default: a small stepper on a lead screw")
     lag_sd_ms: NotNegative = Field(
         model.LAG_SD / MS,
-        description="standard deviation of how late it follows a recorded command; default: a soft servo's; "
-        "masses with one value share one lag; 0: at once, or the log is a measurement",
+        description=(
+            "standard deviation of the delay behind a recorded command; default: soft "
+            "servo; masses with one value share one delay; 0: no delay, or the log is a "
+            "measurement"
+        ),
     )
     sag_sd_mm: NotNegative = Field(
         model.SAG_SD / MM,
-        description="standard deviation of how far it hangs below a command on an upright rail; default: a "
-        "soft servo's; 0: a stiff drive, a lead screw's",
+        description=(
+            "standard deviation of the sag below a command on an upright rail; default: "
+            "soft servo; 0: stiff drive or lead screw"
+        ),
     )
     gain: Positive = Field(
         1.0,
-        description="first moment that it really gives, over mass_g times the commanded "
-        "displacement; equipoise calibrate finds it",
+        description=(
+            "actual first moment divided by mass_g times the commanded displacement; "
+            "equipoise calibrate estimates it"
+        ),
     )
     mass_sd_percent: NotNegative = Field(
-        0.5, description="standard deviation of mass_g and gain; default: a kitchen scale; 0: exact"
+        0.5, description="standard deviation of mass_g and gain; default: kitchen scale; 0: exact"
     )
 
     def record(self, where: str) -> model.SlidingMass:
         """Return the mass, whose travel must go up and hold its home."""
         low, high = self.travel_mm
         if not low < high or not low <= 0 <= high:
-            wanted = "the least and the greatest displacement, home (0) among them"
+            wanted = "the smallest and the largest displacement, home (0) included"
             raise InputError(f"{where}.travel_mm", f"[{low:g}, {high:g}]", wanted)
         unit = key_factor("travel_mm")
         return record_of(model.SlidingMass, self, where, travel=(low * unit, high * unit))
@@ -161,4 +172,8 @@ def check_total_mass(platform: Platform, masses: list[SlidingMass], source: str)
     total = sum(mass.mass_g for mass in masses) * key_factor("mass_g")
     if total >= platform.mass_kg:
         found = f"{platform.mass_kg:g} kg, but the sliding masses weigh {total:g} kg"
-        raise InputError(f"{source}: platform.mass_kg", found, "the mass of everything that floats")
+        raise InputError(
+            f"{source}: platform.mass_kg",
+            found,
+            "the mass of everything that floats on the bearing",
+        )

@@ -31,7 +31,7 @@ WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
 
 CLOCK: float = Field(
     100 * model.CLOCK_SD,
-    description="standard deviation of how fast its clock is; default: a crystal; 0: exact",
+    description="standard deviation of its clock rate; default: crystal; 0: exact",
 )
 
 
@@ -44,12 +44,14 @@ class Attitude(RecordTable):
     noise_deg: Positive = Field(description="standard deviation per axis and sample")
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
-    quantum_deg: NotNegative = Field(0.0, description="last digit of roll, pitch, yaw (3-2-1)")
+    quantum_deg: NotNegative = Field(0.0, description="resolution of roll, pitch, yaw (3-2-1)")
     clock_sd_percent: NotNegative = CLOCK
     plumb_sd_deg: NotNegative = Field(
         math.degrees(model.PLUMB_SD),
-        description="standard deviation of how far its vertical may lean from gravity's; default: levelled by "
-        "eye; 0: it does not lean",
+        description=(
+            "standard deviation of the tilt of its vertical from gravity; default: "
+            "levelled by eye; 0: none"
+        ),
     )
 
 
@@ -62,7 +64,7 @@ class Gyro(RecordTable):
     bias_sd_deg_s: NotNegative = Field(1.0, description="default: usual for a low-cost gyro")
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
-    quantum_deg_s: NotNegative = Field(0.0, description="last digit of a rate")
+    quantum_deg_s: NotNegative = Field(0.0, description="resolution of a rate")
     clock_sd_percent: NotNegative = CLOCK
 
     def record(self, where: str) -> model.Gyro:
@@ -120,7 +122,9 @@ class TestbedFile(RecordTable):
     disturbance: Annotated[Disturbance, Holds(ITSELF)] = Disturbance()
     hardware: Hardware | None = None
     truth: Truth | None = None
-    assumed: dict[str, str] = Field({}, description="dotted key of this file: why it is assumed")
+    assumed: dict[str, str] = Field(
+        {}, description="dotted key of this file: why its value is assumed"
+    )
 
     def record(self, where: str) -> Testbed:
         """Return the testbed; ``where`` is the file."""
@@ -186,7 +190,7 @@ def _check_field(file: TestbedFile, source: str) -> None:
         raise InputError(f"{source}: magnetorquer", "magnetorquers but no magnetic field", wanted)
     if file.truth is not None and file.truth.field_uT is not None:
         wanted = "a table [magnetic_field] with the nominal field, or [[coil_pair]]"
-        raise InputError(f"{source}: truth.field_uT", "a true field but none that is known", wanted)
+        raise InputError(f"{source}: truth.field_uT", "a true field but no stated field", wanted)
 
 
 def _check_sun(file: TestbedFile, source: str) -> None:

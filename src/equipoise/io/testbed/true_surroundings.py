@@ -19,14 +19,16 @@ class TrueCoilPair(RecordTable):
     KIND = defects.TrueCoilPair
 
     name: str
-    gain: Positive = Field(1.0, description="of the field that it is driven by")
+    gain: Positive = Field(1.0, description="relative to the driven field")
     axis: Annotated[Direction | None, Holds("axis_N")] = Field(
         None, description="laboratory axes; if omitted: as the pair's own key"
     )
     deviation_percent: float | None = Field(
         None,
-        description="of the field at the magnetometer from that at the coils on the platform; left "
-        "out: drawn within the pair's nonuniformity",
+        description=(
+            "of the field at the magnetometer, relative to that at the coils on the "
+            "platform; if omitted: drawn within the pair's nonuniformity"
+        ),
     )
 
 
@@ -34,16 +36,16 @@ class TrueLamp(RecordTable):
     """When the lamp is on, and how it really warms the platform."""
 
     on_s: list[Pair] = Field(
-        min_length=1, description="from when to when; what is on at 0 has been on for long"
+        min_length=1, description="intervals in which it is on; on at 0: has been on for long"
     )
-    warms_K: Positive | None = Field(None, description="in the end; if omitted: as [lamp] has it")
-    time_constant_s: Positive | None = Field(None, description="if omitted: as [lamp] has it")
+    warms_K: Positive | None = Field(None, description="final value; if omitted: as in [lamp]")
+    time_constant_s: Positive | None = Field(None, description="if omitted: as in [lamp]")
 
     def record(self, where: str) -> defects.TrueLamp:
         """Return the lamp, whose times must grow."""
         t = np.array(self.on_s).ravel()
         if t[0] < 0 or np.any(np.diff(t) <= 0):
-            raise InputError(f"{where}.on_s", f"{self.on_s}", "times from 0 on, each later")
+            raise InputError(f"{where}.on_s", f"{self.on_s}", "increasing times from 0 on")
         return record_of(defects.TrueLamp, self, where)
 
 
@@ -61,9 +63,9 @@ def check_true_lamp(
 ) -> None:
     """Raise InputError for warmth of no lamp, or a lamp of which too little is known."""
     if lamp is None and thermal is not None:
-        wanted = "a table [truth.lamp] with on_s, from when to when it is on"
-        raise InputError(f"{where}.thermal_um_K", "a warmth, but nothing that warms", wanted)
+        wanted = "a table [truth.lamp] with on_s, the intervals in which it is on"
+        raise InputError(f"{where}.thermal_um_K", "a temperature rise without a lamp", wanted)
     for key in ("warms_K", "time_constant_s") if lamp is not None and stated is None else ():
         if getattr(lamp, key) is None:
-            wanted = "what the lamp really does, or a table [lamp] that states it"
+            wanted = "the lamp's true effect, or a table [lamp] that states it"
             raise InputError(f"{where}.lamp.{key}", "nothing", wanted)

@@ -48,7 +48,9 @@ class Fault(RecordTable):
 
     mass: str
     kind: Literal["stuck", "slip"] = "stuck"
-    gain: float | None = Field(None, description="slip: share of the distance really gone")
+    gain: float | None = Field(
+        None, description="slip: fraction of the distance actually travelled"
+    )
     from_move: Annotated[int, Field(ge=1)] = 1
 
     def record(self, where: str) -> model.Fault:
@@ -74,11 +76,11 @@ class Drive(RecordTable):
     KIND = model.TrueDrive
 
     mass: str
-    gain: Positive | None = Field(None, description="as the mass's own key")
+    gain: Positive | None = Field(None, description="as the mass's key")
     axis: Direction | None = Field(None, description="direction of the rail, body axes")
     backlash_mm: NotNegative | None = None
     accuracy_mm: NotNegative | None = Field(
-        None, description="standard deviation of where it really stops"
+        None, description="standard deviation of its actual stops"
     )
 
 
@@ -98,7 +100,7 @@ class ComStep(RecordTable):
 
     time_s: Positive
     com_um: Annotated[Triple, Holds("shift")] = Field(
-        description="by how much the total centre of mass moves, body axes"
+        description="shift of the total centre of mass, body axes"
     )
 
 
@@ -123,7 +125,10 @@ class Truth(RecordTable):
     com_low_um: Triple | None = None
     com_high_um: Triple | None = None
     inertia_kg_m2: Annotated[Inertia | None, Holds("inertia_P")] = Field(
-        None, description="about the platform's point; in either form of the platform's"
+        None,
+        description=(
+            "about the platform's reference point; in either form of the platform's inertia"
+        ),
     )
     inertia_error_percent: Annotated[float, Field(ge=0, lt=100)] = 0.0
     attitude_deg: Triple | None = Field(None, description="roll, pitch, yaw (3-2-1)")
@@ -137,7 +142,7 @@ class Truth(RecordTable):
     sag_um: Five | None = Field(None, description="xx, yy, xy, xz, yz")
     drift_um_min: Triple | None = None
     thermal_um_K: Triple | None = Field(
-        None, description="centre of mass for each kelvin of warmth that the lamp brings"
+        None, description="shift of the centre of mass per kelvin of temperature rise by the lamp"
     )
     noise_torque_N_m: NotNegative = 0.0
     noise_correlation_s: Positive = 30.0
@@ -150,29 +155,30 @@ class Truth(RecordTable):
     sun_mounting_deg: Triple = Field(ZEROS)
     magnetometer_mounting_deg: Triple = Field(ZEROS)
     gyro_scale_percent: Annotated[Triple, Holds("gyro.scale")] = Field(
-        ZEROS, description="each axis reads so much more"
+        ZEROS, description="bias of each axis"
     )
     gyro_misalignment_deg: Annotated[Triple, Holds("gyro.turn")] = Field(
         ZEROS, description="rotation vector from body axes to the gyro's"
     )
     plumb_deg: Annotated[Pair, Holds("camera.plumb")] = Field(
-        [0.0, 0.0], description="measured attitudes are turned by so much about laboratory x and y"
+        [0.0, 0.0], description="inclination of measured attitudes about laboratory x and y"
     )
     heading2_cos_deg: Annotated[Triple, Holds("camera.heading_cos")] = Field(
-        ZEROS, description="turn of the measured attitude, times cos(2 heading); body"
+        ZEROS, description="rotation of the measured attitude, times cos(2 heading); body"
     )
     heading2_sin_deg: Annotated[Triple, Holds("camera.heading_sin")] = Field(
-        ZEROS, description="turn of the measured attitude, times sin(2 heading); body"
+        ZEROS, description="rotation of the measured attitude, times sin(2 heading); body"
     )
     bad_rows_percent: Annotated[float, Field(ge=0, le=100), Holds("camera.bad_share")] = Field(
-        0.0, description="share of the camera's rows that are outliers"
+        0.0, description="fraction of outliers among the camera's rows"
     )
     bad_row_deg: Annotated[float, Field(ge=0, le=180), Holds("camera.bad_turn")] = Field(
-        10.0, description="turn of an outlier about any axis; default: well outside any noise"
+        10.0, description="rotation of an outlier about any axis; default: well outside any noise"
     )
-    mass_lag_s: NotNegative = Field(0.0, description="masses are so far behind their report")
+    mass_lag_s: NotNegative = Field(0.0, description="delay of the masses behind their report")
     field_uT: Annotated[Triple | None, Holds("field_N")] = Field(
-        None, description="magnetic, laboratory axes, as it really is; beside a cage, without it"
+        None,
+        description="true magnetic field, laboratory axes; with a coil cage, without its field",
     )
     fault: Annotated[list[Fault], Holds("faults")] = Field([])
     drive: Annotated[list[Drive], Holds("drives")] = Field([])

@@ -10,7 +10,7 @@ from equipoise.model import vector_sensors as model
 
 MOUNTING_SD: float = Field(
     0.5,
-    description="standard deviation of its axes about each body axis; default: a chip's, or a bracket's",
+    description="standard deviation of its axes about each body axis; default: chip or bracket",
 )
 
 
@@ -35,7 +35,7 @@ class Sun(RecordTable):
     rate_hz: Positive
     noise: Positive = Field(description="standard deviation per axis and sample, of a unit vector")
     direction: Annotated[Direction | None, Holds("direction_N")] = Field(
-        None, description="to the lamp, laboratory axes, z up; if omitted: as [lamp] has it"
+        None, description="direction to the lamp, laboratory axes, z up; if omitted: as in [lamp]"
     )
     delay_s: NotNegative = 0.0
     mounting_sd_deg: NotNegative = MOUNTING_SD
@@ -48,6 +48,6 @@ class Magnetometer(RecordTable):
 
     rate_hz: Positive
     noise_uT: Positive = Field(description="standard deviation per axis and sample")
-    bias_sd_uT: NotNegative = Field(1.0, description="default: what a calibration leaves")
+    bias_sd_uT: NotNegative = Field(1.0, description="default: after calibration")
     delay_s: NotNegative = 0.0
     mounting_sd_deg: NotNegative = MOUNTING_SD

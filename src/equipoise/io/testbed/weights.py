@@ -29,19 +29,19 @@ class Weight(RecordTable):
     mass_g: Positive
     count: Count = Field(description="how many there are")
     mass_sd_g: NotNegative = Field(
-        0.0, description="standard deviation of each; 0: weighed well enough"
+        0.0, description="standard deviation of each; 0: weighed accurately"
     )
-    height_mm: NotNegative = Field(0.0, description="by which each makes a pile higher")
+    height_mm: NotNegative = Field(0.0, description="height that each adds to a pile")
 
 
 class WeightGrid(RecordTable):
     """Places on a regular grid: letters along one axis, numbers along the other."""
 
     name: Name
-    first_mm: Triple = Field(description="foot of a pile at A1, from P")
+    first_mm: Triple = Field(description="base of a pile at A1, from P")
     letter_axis: Direction
     number_axis: Triple = Field(
-        description="at right angles to the letters; piles grow along letters x numbers"
+        description="perpendicular to the letters; piles grow along letters x numbers"
     )
     step_mm: Positive
     letters: Annotated[int, Field(ge=1, le=model.LETTERS)]
@@ -49,9 +49,12 @@ class WeightGrid(RecordTable):
     capacity: Count = Field(1, description="weights in a pile")
     place_sd_mm: NotNegative = Field(
         0.5,
-        description="standard deviation of where a pile stands, each way; default: play in a drilled hole",
+        description=(
+            "standard deviation of a pile's position in each direction; default: play in "
+            "a drilled hole"
+        ),
     )
-    taken: list[str] = Field([], description="places that are not free, such as C4")
+    taken: list[str] = Field([], description="occupied places, such as C4")
 
     def record(self, where: str) -> model.WeightGrid:
         """Return the grid, its numbers' axis exactly square to the letters'."""
@@ -61,7 +64,7 @@ class WeightGrid(RecordTable):
         known = model.place_names(grid)
         for name in grid.taken:
             if name not in known:
-                found = f"'{name}', which is no place of it"
+                found = f"'{name}', which is not a place of it"
                 raise InputError(f"{where}.taken", found, nearest(name, known))
         return grid
 
