@@ -26,8 +26,8 @@ class BoardFault(Code):
     OUTDATED = "outdated", "it says {0}; wanted Grbl 1.1 or later"
     SILENT = (
         "board_silent",
-        "it does not answer: {0} was requested {waited:.1f} s ago, and the last line received is "
-        "{1}, {ago:.1f} s ago; its position is lost; check power and cable, then home again",
+        "it does not answer: {0} was requested {waited:.1f} s ago; last line received: {1}, "
+        "{ago:.1f} s ago. Its position is lost; check power and cable, then home again",
     )
     UNANSWERED = (
         "unanswered",
@@ -64,8 +64,8 @@ class BoardFault(Code):
     HOMING_BROKEN = "homing_broken", "homing was broken off; its position is not known; home again"
     HOMING_LONG = (
         "homing_long",
-        "homing has not ended after {waited:.0f} s, which is longer than its settings explain; "
-        "the last line received is {0}, {ago:.1f} s ago; check the switches, then home again",
+        "homing has not ended after {waited:.0f} s, longer than its settings explain; last line "
+        "received: {0}, {ago:.1f} s ago. Check the switches, then home again",
     )
     SWITCH_HIT = (
         "switch_hit",

@@ -8,9 +8,8 @@ class Unobservable(Code):
 
     SCALE = (
         "scale",
-        "the data do not determine the common scale of inertia and centre of mass: "
-        "without a known move or stored momentum, motion determines ratios only; move a "
-        "mass, or hold one known value",
+        "the data determine inertia and centre of mass up to a common scale, since motion shows "
+        "ratios only; move a mass, store momentum, or hold a value",
     )
     SCALE_OF_MOMENT = (
         "scale_of_moment",
@@ -31,13 +30,13 @@ class Unobservable(Code):
     )
     TILT = (
         "tilt_open",
-        "the data do not determine the direction of gravity, and hence not the centre "
-        "of mass; add an attitude sensor, or record larger swings for longer",
+        "the data do not determine the direction of gravity, hence not the centre of mass; add "
+        "an attitude sensor, or record larger swings",
     )
     HEADING = (
         "heading",
-        "the data do not determine the heading, a rotation about the vertical that "
-        "affects each of {names}; the direction of gravity in the body is determined",
+        "the data do not determine the heading, which affects each of {names}; the direction of "
+        "gravity in the body is determined",
     )
     DISTANCE = (
         "distance",

@@ -67,9 +67,9 @@ class EstimateReason(Code):
     )
     FLAT_BODY = (
         "flat_body",
-        "The best estimate is a flat body, at the limit of physical consistency: its "
-        "greatest principal moment is {gap:% .1g} % below the sum of the other two. "
-        "Intervals do not account for this limit.",
+        "The best estimate is a flat body, at the limit of physical consistency. Its greatest "
+        "principal moment is {gap:% .1g} % below the sum of the other two. Intervals do not "
+        "account for this limit.",
     )
 
     # Of the model that a record supports
@@ -143,10 +143,9 @@ class EstimateReason(Code):
     )
     LAY_ON_STOP = (
         "lay_on_stop",
-        "But the platform stays at its tilt limit from {start:.4g} to {end:.4g} s, and "
-        "no model includes the contact force of the stop: do not trust the numbers. Use "
-        "a part without such a stay, the longest from {first:.4g} to {last:.4g} s "
-        "(--from-s, --to-s).",
+        "But the platform stays at its tilt limit from {start:.4g} to {end:.4g} s. No model "
+        "includes the contact force of the stop: do not trust the numbers. Use a part without "
+        "such a stay, the longest from {first:.4g} to {last:.4g} s (--from-s, --to-s).",
     )
     UNKNOWN_TORQUE = (
         "unknown_torque",
@@ -179,9 +178,9 @@ class EstimateReason(Code):
     )
     RUNS_DISAGREE = (
         "runs_disagree",
-        "The runs disagree: they scatter {widening:.2g} times as much as their "
-        "intervals allow. The platform or the bench changed between them. There is no "
-        "joint estimate; see the individual means and their scatter.",
+        "The runs disagree: they scatter {widening:.2g} times as much as their intervals allow. "
+        "The platform or the bench changed between them. There is no joint estimate; compare "
+        "the individual means and their scatter.",
     )
     RUNS_LEFT_OUT = (
         "runs_left_out",
@@ -281,10 +280,10 @@ class EstimateReason(Code):
     )
     GYROSCOPIC_TORQUE_LEFT_OUT = (
         "gyroscopic_torque_left_out",
-        "The simplified model neglects the gyroscopic torque and products of inertia, "
-        "which biases com by about {com:um .2g} um (|w|^2 dJ / m g: {rule:um .2g} um), "
-        "more than all other errors. The interval is that bound, not a 95 % interval. "
-        "Use another filter.",
+        "The simplified model neglects the gyroscopic torque and products of inertia. This "
+        "biases com by about {com:um .2g} um (|w|^2 dJ / m g: {rule:um .2g} um), more than all "
+        "other errors. The interval is as wide as that bound and not trustworthy as one of 95 "
+        "%. Use another filter.",
     )
     TRACKED = (
         "tracked",
@@ -327,10 +326,9 @@ class EstimateReason(Code):
     )
     RESTS_TOO_ROUGH = (
         "rests_too_rough",
-        "The platform swung by {swing:deg .2g} deg rms at an equilibrium, which is "
-        "therefore known to {sd:deg .2g} deg only: not enough to determine the distance "
-        "of the centre of mass from P. Let it settle after each move, or use a method "
-        "that needs no rest.",
+        "The platform swung by {swing:deg .2g} deg rms at an equilibrium, which is therefore "
+        "known to {sd:deg .2g} deg only. This does not determine the distance of the centre of "
+        "mass from P. Let it settle after each move, or use a method that needs no rest.",
     )
 
     # Of a calibration

@@ -81,8 +81,8 @@ class FindingReason(Code):
     )
     MASS_FLICKERS = (
         "mass_flickers",
-        "mass {0} is logged one step away and back within a second, {count:.0f} times: "
-        "its position lies between two steps of the log; it is treated as stationary.",
+        "mass {0} is logged one step away and back within a second, {count:.0f} times. Its "
+        "position lies between two steps of the log; it is treated as stationary.",
     )
     MORE_MOVES = "more_moves", "{count:.0f} further moves of masses."
     TILT_RANGE = "tilt_range", "tilt: {low:deg .3g} to {high:deg .3g} deg."
@@ -284,10 +284,10 @@ class FindingReason(Code):
     )
     PUSH = (
         "push",
-        "at {t:.4g} s the platform received an impulse of {size:mN m s .2g} mN m s "
-        "(laboratory x, y, z: {size_x:mN m s .2g}, {size_y:mN m s .2g}, {size_z:mN m s "
-        ".2g}; sd {sd:mN m s .1g}), like a push from below at the body azimuth "
-        "{azimuth:deg .0f} deg, or one from above on the opposite side.",
+        "at {t:.4g} s the platform received an impulse of {size:mN m s .2g} mN m s (laboratory "
+        "x, y, z: {size_x:mN m s .2g}, {size_y:mN m s .2g}, {size_z:mN m s .2g}; sd {sd:mN m s "
+        ".1g}). It is that of a push from below at the body azimuth {azimuth:deg .0f} deg, or "
+        "from above on the opposite side.",
     )
     TOUCH_UNCLEAR = (
         "touch_unclear",

@@ -15,9 +15,8 @@ class ImplausibleReason(Code):
     )
     SWINGS_WITH_COM_ABOVE = (
         "swings_with_com_above",
-        "But the estimated centre of mass is above the pivot ({sds:.2g} sd), where a "
-        "platform tips over within about {seconds:.2g} s; from {start:.4g} to {end:.4g} "
-        "s it swings through level {count:.0f} times. Check the attitude's direction, "
-        "the vertical axes of laboratory and body, and platform.mass_kg; do not trust "
-        "the numbers.",
+        "But the estimated centre of mass is above the pivot ({sds:.2g} sd), where a platform "
+        "tips over within about {seconds:.2g} s. From {start:.4g} to {end:.4g} s it swings "
+        "through level {count:.0f} times. Check the attitude's direction, the vertical axes of "
+        "laboratory and body, and platform.mass_kg; do not trust the numbers.",
     )

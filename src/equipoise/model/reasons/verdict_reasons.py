@@ -11,12 +11,12 @@ HOLD = (
     "+/- {sd_y:um .1f}, {off_z:um .1f} +/- {sd_z:um .1f}) um from the target"
 )
 TORQUE = (
-    "gravity's torque within {tilt:deg g} deg of level, rms, is {found:uN m plain} uN m (95 %: "
-    "{low:uN m plain} uN m to {high:uN m plain} uN m); at most {limit:uN m plain} uN m is wanted."
+    "gravity torque within {tilt:deg g} deg of level, rms, is {found:uN m plain} uN m (95 %: "
+    "{low:uN m plain} uN m to {high:uN m plain} uN m); required: at most {limit:uN m plain} uN m."
 )
 OFFSET = (
-    "the centre of mass's distance from where it is wanted is {found:um plain} um (95 %: "
-    "{low:um plain} um to {high:um plain} um); at most {limit:um plain} um is wanted."
+    "the centre of mass is {found:um plain} um from its target (95 %: {low:um plain} um to "
+    "{high:um plain} um); required: at most {limit:um plain} um."
 )
 UNPASSABLE = (
     "even a perfect platform would not pass. Record longer, with larger swings about both axes, or "
