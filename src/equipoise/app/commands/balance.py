@@ -126,7 +126,7 @@ def balance(
     if runs is not None:
         return _series(bed, Goal(*where), limits, (runs, seed), engine=engine, json=json, out=out)
     done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
-    hand_over_run(output_of(done), json, out, bed.name)
+    hand_over_run(output_of(done), json, out, bed.name, below=True)
     return done.stopped_with or (0 if done.verdict.passed else 1)
 
 
@@ -174,7 +174,7 @@ def _series(
     with engine() as pool:
         spread = spread_over(pool, partial(counted_pieces, f"balancing {seeds[0]} runs"))
         done = run_series(bed, goal, limits, seeds, spread)
-    hand_over_run(output_of(done), json, out, bed.name)
+    hand_over_run(output_of(done), json, out, bed.name, below=True)
     return 0 if done.verdict.passed else 1
 
 

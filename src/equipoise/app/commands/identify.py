@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from equipoise.app.engine.pool import Engine
     from equipoise.app.runs.plausible_record import Gate
-    from equipoise.model.finding import Finding
     from equipoise.model.manoeuvre import Plan
     from equipoise.model.recording import Recording
     from equipoise.model.testbed import Testbed
@@ -120,19 +119,13 @@ def _from_one(
 ) -> int:
     """Identify from one recording."""
     with busy("identifying", announce=False):
-        from equipoise.app.console.rich_blocks import show
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.identification import run
         from equipoise.app.runs.plausible_record import Gate
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
-        from equipoise.app.text.run_blocks import finding_items
         from equipoise.app.views.identify_views import output_of
 
-    def on_findings(found: "Sequence[Finding]") -> None:
-        if not json:
-            show(finding_items(found))
-
-    done = run(recording, bed, options, AT_TERMINAL, Gate(force, on_findings))
+    done = run(recording, bed, options, AT_TERMINAL, Gate(force))
     done = replace(done, plan=planned)
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.estimate.outcome.usable else 1

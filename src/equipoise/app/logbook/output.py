@@ -32,9 +32,11 @@ def hand_over(output: Output, json: bool, out: Path | None, below: bool = False)
         show_paths(paths, json)
 
 
-def hand_over_run(output: Output, json: bool, out: Path | None, platform: str) -> None:
-    """Hand over a run whose steps were shown as they came; without ``out`` keep it."""
-    hand_over(output, json, out, below=True)
+def hand_over_run(
+    output: Output, json: bool, out: Path | None, platform: str, below: bool = False
+) -> None:
+    """Hand over a run; without ``out`` keep it. ``below``: its steps were printed already."""
+    hand_over(output, json, out, below)
     if out is None:
         keep(output, platform)
 

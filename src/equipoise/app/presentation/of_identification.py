@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 from equipoise.app.presentation import of_estimate
 from equipoise.app.runs.identification import Identification
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.run_blocks import finding_items
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,10 +19,10 @@ def lines(done: Identification) -> Iterator[str]:
 
 
 def blocks(done: Identification) -> Blocks:
-    """Return findings, and what the command prints."""
+    """Return what the command prints."""
     from equipoise.app.views import identify_views
 
-    return (*finding_items(done.findings), *identify_views.blocks(done))
+    return identify_views.blocks(done)
 
 
 def figure(done: Identification) -> "Figure | None":

@@ -49,7 +49,7 @@ def run(
     waiting: Waiting = QUIET,
     gate: Gate = CLOSED,
 ) -> Identification:
-    """Identify from a recording that fits the testbed; ``gate`` passes findings on.
+    """Identify from a recording that fits the testbed and passes ``gate``.
 
     Raises InputError for a method or a held parameter that does not exist, Implausible for a record
     that no estimate can stand, unless it is forced.
@@ -59,5 +59,4 @@ def run(
     steps = list(waiting.steps(identify(recording, testbed, options), "identifying"))
     last = steps[-1].estimate
     happened = [] if last is None else event_findings(last)
-    gate.say(happened)
     return Identification(testbed, recording, [*found, *happened], steps)

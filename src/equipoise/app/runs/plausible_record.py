@@ -1,6 +1,5 @@
 """A record that is looked at before anything is fitted to it."""
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from equipoise.assessment.findings.record_findings import findings
@@ -16,20 +15,13 @@ class Gate:
     """What a record must pass before anything is fitted to it."""
 
     force: bool = False  # fit it whatever was found
-    on_findings: Callable[[Sequence[Finding]], None] | None = None
-
-    def say(self, found: Sequence[Finding]) -> None:
-        """Pass findings on as they are made."""
-        if self.on_findings is not None:
-            self.on_findings(found)
 
     def findings(self, recording: Recording, testbed: Testbed) -> list[Finding]:
-        """Return what a record holds, passed on.
+        """Return what a record holds.
 
         Raises Implausible for what no estimate can stand, unless it is forced.
         """
         found = [*findings(recording, testbed), *direction_findings(recording, testbed)]
-        self.say(found)
         wrong = [reason for each in found if each.kind == "wrong" for reason in each.reasons]
         if wrong and not self.force:
             raise Implausible(recording.source or "recording", wrong)

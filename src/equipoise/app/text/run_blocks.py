@@ -2,7 +2,17 @@
 
 from collections.abc import Iterable, Sequence
 
-from equipoise.app.text.blocks import Blocks, Claim, Item, Items, Moment, Paragraph, Tone, items
+from equipoise.app.text.blocks import (
+    Blocks,
+    Claim,
+    Heading,
+    Item,
+    Items,
+    Moment,
+    Paragraph,
+    Tone,
+    items,
+)
 from equipoise.app.text.estimate_text import noise_floor_line
 from equipoise.app.text.numbers import fixed
 from equipoise.model.finding import Finding
@@ -10,6 +20,7 @@ from equipoise.model.reasons.reason import Reason
 from equipoise.model.step import Step
 from equipoise.model.verdict import Verdict, VerdictOutcome
 
+RECORDING = "Content of the recording"
 TONES: dict[str, Tone] = {
     "content": "plain",
     "motion": "plain",
@@ -31,6 +42,11 @@ def finding_items(findings: Sequence[Finding]) -> Blocks:
     if not findings:
         return ()
     return (Items(tuple(Item(f.sentence, TONES[f.kind]) for f in findings)),)
+
+
+def recording_blocks(findings: Sequence[Finding]) -> Blocks:
+    """Return the findings under their heading, for below the result; nothing if there are none."""
+    return (Heading(RECORDING), *finding_items(findings)) if findings else ()
 
 
 def reason_items(reasons: Iterable[Reason], tone: Tone = "caution") -> Blocks:

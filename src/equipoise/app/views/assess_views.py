@@ -16,7 +16,7 @@ from equipoise.app.text.estimate_text import outcome_claim, unobservable_items
 from equipoise.app.text.json_document import estimate_json
 from equipoise.app.text.json_results import ASSESS
 from equipoise.app.text.json_shape import View
-from equipoise.app.text.run_blocks import finding_items, moments, verdict_blocks, verdict_claim
+from equipoise.app.text.run_blocks import recording_blocks, verdict_blocks, verdict_claim
 from equipoise.app.views.assess_tables import (
     change_table,
     check_items,
@@ -44,13 +44,12 @@ def output_of(reported: AssessedPlatform) -> Output:
 
 
 def blocks(reported: AssessedPlatform) -> Blocks:
-    """Return what the recording holds, steps, tables and the verdict."""
+    """Return tables and the verdict, what it rests on, and what the recording contains."""
     return (
-        *finding_items(reported.findings),
-        *moments(reported.steps[:-1]),
         *tables_of(reported),
-        *unobservable_items(reported.done.estimate),
         _last_word(reported),
+        *unobservable_items(reported.done.estimate),
+        *recording_blocks(reported.findings),
     )
 
 

@@ -27,7 +27,7 @@ from equipoise.app.text.estimate_text import (
 from equipoise.app.text.json_results import IDENTIFY_RUNS
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import fixed, significant, unit_for, with_sd
-from equipoise.app.text.run_blocks import TONES, moments, verdict_claim
+from equipoise.app.text.run_blocks import TONES, verdict_claim
 from equipoise.model.estimate import BODY, COM
 from equipoise.model.joint_estimate import Spread
 
@@ -42,18 +42,14 @@ def output_of(done: JointIdentification) -> Output:
 
 
 def blocks(done: JointIdentification) -> Blocks:
-    """Return problems, runs, their scatter, the joint estimate, and the two sentences that count.
-
-    The last step is the verdict, which stands at the end.
-    """
+    """Return the joint estimate and the two sentences that count, the runs, and their problems."""
     return (
-        *problem_items(done),
-        *moments(done.steps[:-1]),
-        *tables_of(done),
         *estimate_tables(done.estimate),
-        *unobservable_items(done.estimate),
         outcome_claim(done.estimate),
         verdict_claim(done.verdict),
+        *unobservable_items(done.estimate),
+        *tables_of(done),
+        *problem_items(done),
     )
 
 

@@ -14,7 +14,7 @@ from equipoise.app.text.estimate_text import (
 )
 from equipoise.app.text.json_document import estimate_json
 from equipoise.app.text.json_shape import View
-from equipoise.app.text.run_blocks import moments
+from equipoise.app.text.run_blocks import recording_blocks
 from equipoise.app.views.plan_check import kept_json, plan_blocks
 from equipoise.procedure.identification.record_courses import RecordCourses
 
@@ -31,15 +31,15 @@ def output_of(done: Identification) -> Output:
 
 
 def blocks(done: Identification) -> Blocks:
-    """Return steps, tables, unobservable directions, and the sentence that sums the estimate up."""
+    """Return the estimate and its outcome, what it rests on, and what the recording contains."""
     estimate = done.estimate
     return (
-        *moments(done.steps),
         *estimate_tables(estimate),
-        *plan_blocks(done.plan, estimate),
+        outcome_claim(estimate),
         *unobservable_items(estimate),
         *paragraphs(residual_line(estimate.residual)),
-        outcome_claim(estimate),
+        *plan_blocks(done.plan, estimate),
+        *recording_blocks(done.findings),
     )
 
 
