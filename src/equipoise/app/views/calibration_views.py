@@ -16,11 +16,11 @@ from equipoise.model.units import DEG, GRAM, MM
 # A column, what its parameter is called, its unit in SI.
 DRIVES = (
     (number("gain"), "gain_{}", 1.0),
-    (number("g mm / mm"), "product_{}", GRAM),
-    (number("rail off", "deg"), "across_{}_1", DEG),
-    (number("across", "deg"), "across_{}_2", DEG),
+    (number("first moment", "g mm / mm"), "product_{}", GRAM),
+    (number("misalignment 1", "deg"), "across_{}_1", DEG),
+    (number("misalignment 2", "deg"), "across_{}_2", DEG),
     (number("backlash", "mm"), "backlash_{}", MM),
-    (number("stops scatter", "mm"), "scatter_{}", MM),
+    (number("stop sd", "mm"), "scatter_{}", MM),
 )
 RAILS = tuple((number(letter), "axis_{}_" + letter, 1.0) for letter in "xyz")
 SENSORS = ("gyro_", "plumb_")

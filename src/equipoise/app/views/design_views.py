@@ -125,7 +125,7 @@ def steps_table(steps: Sequence[MassStep], tilt: float) -> Table:
         (number("step", "uN m"), lambda step: plain(step.torque / UN_M)),
         (number(f"rms within {tilt / DEG:.3g} deg", "uN m"),
          lambda step: plain(step.within_tilt / UN_M)),
-        (number("stop's sd", "um"), lambda step: plain(step.stop_sd / UM)),
+        (number("stop sd", "um"), lambda step: plain(step.stop_sd / UM)),
     )  # fmt: skip
 
 
@@ -137,10 +137,10 @@ def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Table:
         budgets,
         (Column("record"), lambda budget: f"{budget.first.duration:g} s"),
         (number("com first", "um"), lambda budget: triple(budget.first.com_sd / UM)),
-        (number("J first", "%"),
+        (number("inertia sd", "%"),
          lambda budget: triple(budget.first.inertia_sd[:3] / PERCENT / moments)),
         (number("com last", "um"), lambda budget: triple(budget.last.com_sd / UM)),
-        (number("left", "uN m"), lambda budget: plain(budget.torque / UN_M)),
+        (number("residual", "uN m"), lambda budget: plain(budget.torque / UN_M)),
     )  # fmt: skip
 
 
@@ -171,7 +171,7 @@ def budget_table(found: Sizing) -> Table:
     ]
     rows.append(("together", "", plain(budget.torque / UN_M), "", ""))
     columns = (Column(), number("x  y  z rms", "um"), number("rms", "uN m"),
-               number("of squares"), Column("from"))  # fmt: skip
+               number("share of variance"), Column("from"))  # fmt: skip
     title = (
         f"Residual torque after {found.case.moves} measurements of "
         f"{found.case.measurement_time:g} s and as many moves, within "
@@ -198,7 +198,7 @@ def better_table(found: Sizing) -> Table:
         ("no single improvement changes it by 1 %", "", "")
     ]
     now = f"{plain(found.budget.torque / UN_M)} now"
-    columns = (Column("one thing better"), number(f"left ({now})", "uN m"), number("within reach"))
+    columns = (Column("improvement"), number(f"residual ({now})", "uN m"), number("within reach"))
     return table("Improvements, most effective first", columns, rows)
 
 

@@ -109,7 +109,7 @@ def spread_table(spreads: tuple[Spread, ...]) -> Table:
         (number("runs"), lambda s: str(s.runs)),
         (number("mean"), lambda s: scaled(s, s.mean)),
         (number("sd between runs"), lambda s: scaled(s, s.sd_between)),
-        (number("sd that they state, rms"), lambda s: scaled(s, s.sd_stated)),
+        (number("stated sd, rms"), lambda s: scaled(s, s.sd_stated)),
         (Column("unit"), lambda s: unit_for(s.name, s.unit).name),
     )
 

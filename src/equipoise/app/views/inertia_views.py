@@ -72,8 +72,8 @@ def swings_table(found: MassBudget) -> Table:
         (Column("swing"), lambda check: check.name),
         (number("measured", "kg m2"), lambda check: with_sd(check.measured, check.measured_sd)[0]),
         (number("sd", "kg m2"), lambda check: with_sd(check.measured, check.measured_sd)[1]),
-        (number("all say", "kg m2"), lambda check: with_sd(check.expected, check.measured_sd)[0]),
-        (number("off", "sd"), lambda check: f"{check.off:.1f}"),
+        (number("combined", "kg m2"), lambda check: with_sd(check.expected, check.measured_sd)[0]),
+        (number("difference", "sd"), lambda check: f"{check.off:.1f}"),
     )
 
 

@@ -116,7 +116,7 @@ def ratio_table(ratios: Sequence[Parameter]) -> Table:
         "Ratios (independent of the scale)",
         ratios,
         (Column(), lambda ratio: ratio.name),
-        (number("least sd"), lambda ratio: with_sd(0.0, ratio.sd / unit[ratio.name].size)[1]),
+        (number("minimum sd"), lambda ratio: with_sd(0.0, ratio.sd / unit[ratio.name].size)[1]),
         (Column("unit"), lambda ratio: unit[ratio.name].name),
     )
 

@@ -36,7 +36,7 @@ def plan_blocks(plan: Plan | None, estimate: Estimate) -> Blocks:
 
 def kept_table(plan: Plan, estimate: Estimate) -> Table:
     """Return predicted and found sd side by side."""
-    columns = (Column(), number("predicted sd"), number("found sd"), number("found / predicted"),
+    columns = (Column(), number("predicted sd"), number("achieved sd"), number("achieved / predicted"),
                Column("unit"))  # fmt: skip
     rows: list[tuple[str, ...]] = []
     for name, sd, found in pairs(plan, estimate):

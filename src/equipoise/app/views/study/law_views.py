@@ -37,7 +37,7 @@ def laws_table(found: Comparison) -> Table:
         f"Laws on {found.testbed.name}",
         laws,
         (Column("law"), lambda law: law.law),
-        (number("aside", "um"), lambda law: both(law.aside, UM)),
+        (number("sideways", "um"), lambda law: both(law.aside, UM)),
         (number("height", "um"), lambda law: both(law.height, UM)),
         (number("torque", "uN m"), lambda law: both(law.torque, UN_M, 3)),
         (number("following"),
@@ -48,7 +48,7 @@ def laws_table(found: Comparison) -> Table:
         (number("travel", "mm"), lambda law: both(law.travel, MM, 3)),
         (number("halted"), lambda law: f"{law.halted}"),
         (number("late"), lambda law: f"{law.late}"),
-        (number("false"), lambda law: f"{law.false_passes}"),
+        (number("false passes"), lambda law: f"{law.false_passes}"),
         notes=(said, *refused),
     )  # fmt: skip
 

@@ -16,8 +16,8 @@ TONE: dict[Agreement, Tone] = {
 
 def paper_table(title: str, rows: Sequence[PaperRow]) -> Table:
     """Return all rows: where, what and why, as printed, as found here, the verdict."""
-    columns = (Column("place"), prose("quantity, and remarks"),
-               number("printed"), number("here"), Column("verdict"))  # fmt: skip
+    columns = (Column("item"), prose("quantity, and remarks"),
+               number("printed"), number("this program"), Column("verdict"))  # fmt: skip
     return Table(title, columns, tuple(map(line, rows)))
 
 

@@ -64,10 +64,10 @@ def laws_table(laws: Sequence[LawSummary], testbed: str) -> Table:
         (prose("reported"), lambda row: row.printed.reported or "none"),
         (prose("laws"), lambda row: ", ".join(row.laws)),
         (number("", "uN m"), lambda row: spread_text(row.torque, UN_M)),
-        (number("aside", "um"), lambda row: spread_text(row.aside, UM)),
+        (number("sideways", "um"), lambda row: spread_text(row.aside, UM)),
         (number("height", "um"), lambda row: spread_text(row.height, UM)),
         (number("", "s"), lambda row: spread_text(row.time)),
         (number("halted"), lambda row: percent(row.halted)),
-        (number("false"), lambda row: percent(row.false_passes)),
+        (number("false passes"), lambda row: percent(row.false_passes)),
         notes=(TABLE_3,),
     )
