@@ -65,7 +65,8 @@ def measurements_table(done: Assessment) -> Table:
         (f"The other methods use {done.metrics.duration:.3g} s of swing after the masses stopped."),
     )
     columns = (Column(), number("com x", "um"), number("y"), number("z"),
-               number("distance from P", "um"), number("difference"), Column("included"))  # fmt: skip
+               number("distance from P", "um"), number("difference"),
+               Column("included"))  # fmt: skip
     title = "Cross-checks: centre of mass with the masses in their present positions"
     return table(title, columns, lines, notes)
 

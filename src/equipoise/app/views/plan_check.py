@@ -36,8 +36,8 @@ def plan_blocks(plan: Plan | None, estimate: Estimate) -> Blocks:
 
 def kept_table(plan: Plan, estimate: Estimate) -> Table:
     """Return predicted and found sd side by side."""
-    columns = (Column(), number("predicted sd"), number("achieved sd"), number("achieved / predicted"),
-               Column("unit"))  # fmt: skip
+    columns = (Column(), number("predicted sd"), number("achieved sd"),
+               number("achieved / predicted"), Column("unit"))  # fmt: skip
     rows: list[tuple[str, ...]] = []
     for name, sd, found in pairs(plan, estimate):
         unit = unit_for(name, "m" if name in COM else "kg m2")
