@@ -43,7 +43,7 @@ def range_table(done: Assessment) -> Table:
         "are proportional to it. Detection limit: the bound that a perfect platform "
         "would get in this recording."
     )
-    columns = (Column(), *map(number, ("found", "95 % bounds", "floor")), Column("unit"))
+    columns = (Column(), *map(number, ("value", "95 % bounds", "detection limit")), Column("unit"))
     return table("Residual gravity torque of the platform", columns, lines, (remark,))
 
 

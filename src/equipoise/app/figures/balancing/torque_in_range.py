@@ -30,7 +30,7 @@ def draw(done: Assessment) -> Figure:
     axes.plot(x, rms[:, 0], color=BLUE, label="rms")
     worst = [each.worst / UN_M for each in found]
     axes.plot(x, worst, color=ORANGE, linestyle="--", label="worst attitude")
-    axes.plot(x, rms[:, 3], color=GREY, linestyle=":", label="floor")
+    axes.plot(x, rms[:, 3], color=GREY, linestyle=":", label="detection limit")
     if done.options.require_torque is not None:
         limit = done.options.require_torque / UN_M
         axes.plot([0, done.torque.tilt / DEG], [limit, limit], color="black", label="required")
