@@ -114,7 +114,7 @@ def test_a_board_that_is_not_sure_of_its_position_is_not_judged_by_it():
 def test_a_fault_is_reported_in_the_boards_words():
     state = board("fault", sure=False)
     trip = tripped(replace(CALM, boards={"masses": state}), BED, LIMITS)
-    assert trip.sentence == "board masses: hit; mend one of the two"
+    assert trip.sentence == "board masses: hit; correct one of the two"
 
 
 def wheels(activity="working", torque=0.001):

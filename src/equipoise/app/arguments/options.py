@@ -49,7 +49,7 @@ On = Annotated[
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True)
 class Seeking:
-    """What is sought, and what is taken as known.
+    """Parameters to estimate, and parameters taken as known.
 
     Attributes
     ----------

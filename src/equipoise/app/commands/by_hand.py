@@ -127,7 +127,7 @@ def _a_persons(requested: Request, path: Path, bed: "Testbed", rounds: int) -> i
 
 
 def filed_session(requested: Request, path: Path, bed: "Testbed", rounds: int) -> "Filed":
-    """Return a session, begun or as it is in its file, with the recording that is new."""
+    """Return a session, new or as it is in its file, with the new recording."""
     from equipoise.app.runs.manual_balancing import begun, opened, with_recording
     from equipoise.io.documents.manual_session import read_session
     from equipoise.io.files.atomic_file import check_writable

@@ -34,7 +34,7 @@ class OnBench:
     foxglove
         With --bench: also serve it live to Foxglove, Lichtblick or PlotJuggler on this computer.
     yes
-        With --bench: do not ask whether somebody holds the platform.
+        With --bench: skip the question whether a person holds the platform.
     """
 
     bench: Flag = False

@@ -35,7 +35,7 @@ def reproduce(
     """Reproduce the results of a paper, number by number.
 
     ivanov2021: records and their fits, the tracker along a move, the law with a move every 25 s and
-    our own, with a drift that nobody declared; Figs. 4 to 15.
+    our own, with an undeclared drift; Figs. 4 to 15.
 
     dasilva2021: Fig. 3, and Tables 2 and 3 measured: every method and law, and a person, on
     platforms of the preset reference-table.

@@ -36,7 +36,7 @@ def basilisk(stated: StatedBody) -> str:
 def nasa_42(stated: StatedBody) -> str:
     """Return the lines of a body in a spacecraft file of 42, whose products are integrals."""
     six = stated.about_C
-    told = lines_of(stated, INTEGRAL)
+    header = lines_of(stated, INTEGRAL)
     values = (
         (repr(stated.body.mass), "Mass"),
         (spaced(six[:3]), "Moments of Inertia (kg-m^2)"),
@@ -45,7 +45,7 @@ def nasa_42(stated: StatedBody) -> str:
     )
     body = [f"{value:<60} ! {meaning}" for value, meaning in values]
     head = f"{f'  {BODY_42}  ':=^72}"
-    return "\n".join((*(f"! {line}" for line in told), head, *body, ""))
+    return "\n".join((*(f"! {line}" for line in header), head, *body, ""))
 
 
 def spaced(values: Floats) -> str:

@@ -19,7 +19,7 @@ class ActuatorFault(Code):
         "actuator_not_its_kind",
         "it does not answer as {0} does: it said {1}; check driver, port and baud rate",
     )
-    DISAGREES = "actuator_disagrees", "{0}; mend one of the two"
+    DISAGREES = "actuator_disagrees", "{0}; correct one of the two"
     SILENT = (
         "actuator_silent",
         "it has not reported for {waited:.1f} s; the last line received is {0}; check power and "
@@ -38,7 +38,7 @@ class ActuatorFault(Code):
     )
     BEGAN_ANEW = (
         "actuator_began_anew",
-        "it restarted, unasked, and is at rest; check its power supply, then home again",
+        "it restarted by itself and is at rest; check its power supply, then home again",
     )
     HALTED_THERE = "actuator_halted_there", "it was halted, and not by this program; home again"
     OWN_FAULT = (

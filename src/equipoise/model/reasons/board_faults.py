@@ -36,7 +36,7 @@ class BoardFault(Code):
     )
     BEGAN_ANEW = (
         "began_anew",
-        "it restarted, unasked ({0}); its position is lost; check its power supply, then home "
+        "it restarted by itself ({0}); its position is lost; check its power supply, then home "
         "again",
     )
     NOT_BEGUN = (
@@ -60,7 +60,7 @@ class BoardFault(Code):
         "moved_by_reset",
         "mass {0} was at {before:mm .3f} mm before a reset, is at {now:mm .3f}; home again",
     )
-    DISAGREES = "disagrees", "{0}; mend one of the two"
+    DISAGREES = "disagrees", "{0}; correct one of the two"
     HOMING_BROKEN = "homing_broken", "homing was broken off; its position is not known; home again"
     HOMING_LONG = (
         "homing_long",

@@ -138,7 +138,7 @@ ITEMS = (
          "tests/estimation/regression/formulations/test_rows.py"),
     Item("L5", "6, 7", "averages of the rate",
          "tests/estimation/regression/formulations/test_rows.py"),
-    Item("L6", "8", "recursive least squares begun by a batch",
+    Item("L6", "8", "recursive least squares initialised by a batch",
          "tests/estimation/regression/solvers/test_recursive.py"),
     Item("L7", "section IV", "start from a rate that is not zero",
          "tests/estimation/regression/solvers/test_recursion.py"),
