@@ -9,10 +9,7 @@ class CrossCheckReason(Code):
     """One thing to know about a cross-check, with its sentence."""
 
     # It counts
-    AGREES = (
-        "cross_check_agrees",
-        f"{SAID}. It counts, and agrees.",
-    )
+    AGREES = "cross_check_agrees", f"{SAID}. It counts, and agrees."
     DISAGREES = (
         "cross_check_disagrees",
         f"{SAID}; the limit is {{limit:.0f}}. It counts, and disagrees.",
@@ -29,14 +26,8 @@ class CrossCheckReason(Code):
     )
 
     # It shows nothing
-    DRIVEN = (
-        "swings_driven",
-        "{0}: wheels or known torques drive the platform; no swing is free.",
-    )
-    NO_SWING = (
-        "no_swing",
-        "{0}: no swing of {duration:.3g} s or less.",
-    )
+    DRIVEN = "swings_driven", "{0}: wheels or known torques drive the platform; no swing is free."
+    NO_SWING = "no_swing", "{0}: no swing of {duration:.3g} s or less."
     NO_SWING_BESIDE_SPIN = (
         "no_swing_beside_spin",
         "{0}: no swing of {duration:.3g} s or less that can be separated from the spin "

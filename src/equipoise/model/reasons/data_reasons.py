@@ -15,14 +15,8 @@ class Unobservable(Code):
         "scale_of_moment",
         "the data do not determine the common scale of inertia and first moment",
     )
-    PARAMETER = (
-        "parameter",
-        "the data do not determine {0}",
-    )
-    COMBINATION = (
-        "combination",
-        "the data cannot separate: {names}",
-    )
+    PARAMETER = "parameter", "the data do not determine {0}"
+    COMBINATION = "combination", "the data cannot separate: {names}"
     MISFIT_FLAT = (
         "misfit_flat",
         "the data do not determine {0}: at {sds:.2g} sd from the optimum, chi-square "

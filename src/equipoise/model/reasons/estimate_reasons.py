@@ -17,17 +17,15 @@ class EstimateReason(Code):
     )
     UNEXPLAINED_ATTITUDE = (
         "unexplained_attitude",
-        "The model does not explain the record. Residuals are {attitude_rms:deg .3g} "
-        "deg rms per axis, {times:.2g} times the stated noise, with a lag-one "
-        "autocorrelation of {lag_one:.2f} (white noise: 0). Unmodelled torques act on "
-        "the platform; do not trust the intervals.",
+        "The model does not explain the record. Residuals are {attitude_rms:deg .3g} deg rms per "
+        "axis, {times:.2g} times the stated noise, with a lag-one autocorrelation of "
+        "{lag_one:.2f} (white noise: 0). Unmodelled torques act; do not trust the intervals.",
     )
     UNEXPLAINED_RATE = (
         "unexplained_rate",
-        "The model does not explain the record. Residuals are {rate_rms:deg .3g} deg/s "
-        "rms per axis, {times:.2g} times the stated noise, with a lag-one "
-        "autocorrelation of {lag_one:.2f} (white noise: 0). Unmodelled torques act on "
-        "the platform; do not trust the intervals.",
+        "The model does not explain the record. Residuals are {rate_rms:deg .3g} deg/s rms per "
+        "axis, {times:.2g} times the stated noise, with a lag-one autocorrelation of "
+        "{lag_one:.2f} (white noise: 0). Unmodelled torques act; do not trust the intervals.",
     )
     COLOURED_RESIDUAL = (
         "coloured_residual",
@@ -35,27 +33,22 @@ class EstimateReason(Code):
         "{spectral_peak:.2g} times the mean): intervals are widened by a factor of "
         "{widening:.2g}.",
     )
-    NOT_CONVERGED = (
-        "not_converged",
-        "The fit did not converge; its numbers are meaningless.",
-    )
+    NOT_CONVERGED = "not_converged", "The fit did not converge; its numbers are meaningless."
     MOTION_NOT_FOUND = (
         "motion_not_found",
-        "The fit did not find the motion: residuals are {attitude_rms:deg .2g} deg rms "
-        "per axis, and its numbers are meaningless. Use a shorter part of the record, "
-        "or hold known mass properties (--hold).",
+        "The fit did not find the motion: residuals are {attitude_rms:deg .2g} deg rms per axis, "
+        "and its numbers are meaningless. Use a shorter part of the record, or hold known mass "
+        "properties (--hold).",
     )
     BUDGET_SPENT = (
         "budget_spent",
-        "The search time ended before {names} was complete, so an undetected error may "
-        "remain: do not trust the intervals. Allow more time (--budget-s 300), or use a "
-        "shorter part of the record.",
+        "The search time ended before {names} was complete, so an undetected error may remain: "
+        "do not trust the intervals. Allow more time (--budget-s 300), or shorten the record.",
     )
     BUDGET_TOO_SMALL = (
         "budget_too_small",
-        "The search time ended before {names} was complete, and residuals exceed noise: "
-        "do not trust the numbers. Allow more time (--budget-s 300), or use a shorter "
-        "part of the record.",
+        "The search time ended before {names} was complete, and residuals exceed noise: do not "
+        "trust the numbers. Allow more time (--budget-s 300), or shorten the record.",
     )
     RATIOS_ONLY = (
         "ratios_only",
@@ -73,19 +66,13 @@ class EstimateReason(Code):
     )
 
     # Of the model that a record supports
-    EVENTS_FOUND = (
-        "events_found",
-        "The model includes {count:.0f} events, at {names} s.",
-    )
+    EVENTS_FOUND = "events_found", "The model includes {count:.0f} events, at {names} s."
     EVENTS_AT_TRAVELS = (
         "events_at_travels",
-        "Events coincide with moves of masses ({names} s), so these moves do not fix "
-        "the scale; check the log of the masses.",
+        "Events coincide with moves of masses ({names} s), so these moves do not fix the scale; "
+        "check the log of the masses.",
     )
-    TOO_MANY_EVENTS = (
-        "too_many_events",
-        "With so many events the numbers cannot be trusted.",
-    )
+    TOO_MANY_EVENTS = "too_many_events", "With so many events the numbers cannot be trusted."
     ATTITUDE_NOISE_OFF = (
         "attitude_noise_off",
         "The attitude noise is {found:deg .2g} deg per sample; stated are {stated:deg .2g}.",
@@ -94,22 +81,16 @@ class EstimateReason(Code):
         "gyro_noise_off",
         "The gyro noise is {found:deg .2g} deg/s per sample; stated are {stated:deg .2g}.",
     )
-    TERMS_ADDED = (
-        "terms_added",
-        "Terms that the record supports were added: {names}.",
-    )
+    TERMS_ADDED = "terms_added", "Terms that the record supports were added: {names}."
     TERMS_CARRIED = (
         "terms_carried",
         "Intervals account for sensor errors that may be zero: {names}.",
     )
-    RIVAL_MODELS = (
-        "rival_models",
-        "Intervals account for alternative models of similar likelihood.",
-    )
+    RIVAL_MODELS = "rival_models", "Intervals account for alternative models of similar likelihood."
     TERMS_TO_DECLARE = (
         "terms_to_declare",
-        "Declare {names} under [disturbance] consider in the testbed file. Shorter "
-        "records, balancing and holding then account for it too.",
+        "Declare {names} under [disturbance] consider in the testbed file. Shorter records, "
+        "balancing and holding then account for it too.",
     )
     CAMERA_LEANS = (
         "camera_leans",
@@ -117,8 +98,7 @@ class EstimateReason(Code):
     )
     GYRO_CLOCK = (
         "gyro_clock",
-        "The gyro's clock is {fast:% .2g} % fast relative to the camera's (slow if "
-        "negative); this is corrected.",
+        "The gyro's clock is {fast:% .2g} % faster than the camera's; this is corrected.",
     )
     LAMP_RESPONSE = (
         "lamp_response",
@@ -131,15 +111,13 @@ class EstimateReason(Code):
     )
     SENSOR_IMPLAUSIBLE = (
         "sensor_implausible",
-        "But the estimated sensor errors are implausibly large ({names}). They may "
-        "stand for another error, such as misread axes or attitude direction; do not "
-        "trust the intervals.",
+        "But the estimated sensor errors are implausibly large ({names}). They may stand for "
+        "another error, such as misread axes or attitude direction; do not trust the intervals.",
     )
     TORQUE_WANDERS = (
         "torque_wanders",
-        "An unexplained torque varies by {torque_x:uN m .2g}, {torque_y:uN m .2g}, "
-        "{torque_z:uN m .2g} uN m about x, y, z within {seconds:.2g} s; intervals "
-        "account for it.",
+        "An unexplained torque varies by {torque_x:uN m .2g}, {torque_y:uN m .2g}, {torque_z:uN "
+        "m .2g} uN m about x, y, z within {seconds:.2g} s; intervals account for it.",
     )
     LAY_ON_STOP = (
         "lay_on_stop",
@@ -149,17 +127,11 @@ class EstimateReason(Code):
     )
     UNKNOWN_TORQUE = (
         "unknown_torque",
-        "That torque is {share:.2g} times the gravity torque: an unmodelled torque "
-        "drives the platform; do not trust the numbers.",
+        "That torque is {share:.2g} times the gravity torque: an unmodelled torque drives the "
+        "platform; do not trust the numbers.",
     )
-    INPUT_LIMITS = (
-        "input_limits",
-        "The uncertainty of the input '{0}' limits {rest}.",
-    )
-    OUTLIERS_REMOVED = (
-        "outliers_removed",
-        "{rows:.0f} outliers were removed.",
-    )
+    INPUT_LIMITS = "input_limits", "The uncertainty of the input '{0}' limits {rest}."
+    OUTLIERS_REMOVED = "outliers_removed", "{rows:.0f} outliers were removed."
     RATES_UNRESOLVED = (
         "rates_unresolved",
         "{rows:.0f} gyro rows were excluded: masses moved between the samples of their position.",
@@ -168,46 +140,41 @@ class EstimateReason(Code):
     # Of several recordings of one platform
     FITTED_JOINTLY = (
         "fitted_jointly",
-        "{count:.0f} runs are fitted jointly: inertia and centre of mass are common; "
-        "starts, biases and moves are individual.",
+        "{count:.0f} runs are fitted jointly: inertia and centre of mass are common; starts, "
+        "biases and moves are individual.",
     )
     RUNS_SCATTERED = (
         "runs_scattered",
-        "The runs scatter more than their intervals allow: intervals are widened by a "
-        "factor of {widening:.2g}.",
+        "The runs scatter more than their intervals allow: these are widened {widening:.2g} times.",
     )
     RUNS_DISAGREE = (
         "runs_disagree",
         "The runs disagree: they scatter {widening:.2g} times as much as their intervals allow. "
-        "The platform or the bench changed between them. There is no joint estimate; compare "
-        "the individual means and their scatter.",
+        "The platform or the bench changed between them. There is no joint estimate; compare the "
+        "individual means and their scatter.",
     )
-    RUNS_LEFT_OUT = (
-        "runs_left_out",
-        "Excluded, because not usable individually: {names}.",
-    )
+    RUNS_LEFT_OUT = "runs_left_out", "Excluded, because not usable individually: {names}."
     TOO_FEW_RUNS = (
         "too_few_runs",
         "Only {usable:.0f} of {count:.0f} runs are usable individually; a joint fit needs two.",
     )
     CROSS_CHECKS_DISAGREE = (
         "cross_checks_disagree",
-        "But cross-checks at the same inertia disagree by up to {off:.0f} sd ({names}): "
-        "one of them is wrong; do not trust the numbers.",
+        "But cross-checks at the same inertia disagree by up to {off:.0f} sd ({names}): one of "
+        "them is wrong; do not trust the numbers.",
     )
 
     # Of a centre of mass that drifts
     DRIFTS = (
         "drifts",
-        "The centre of mass drifts by {way_x:um .2g}, {way_y:um .2g}, {way_z:um .2g} um "
-        "over the record (sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um .2g}). com is its "
-        "value at the start, com_end at the end.",
+        "The centre of mass drifts by {way_x:um .2g}, {way_y:um .2g}, {way_z:um .2g} um over the "
+        "record (sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um .2g}). com is its value at the start, "
+        "com_end at the end.",
     )
     NO_DRIFT = (
         "no_drift",
-        "No significant drift of the centre of mass: {way_x:um .2g}, {way_y:um .2g}, "
-        "{way_z:um .2g} um over the record (sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um "
-        ".2g}).",
+        "No significant drift of the centre of mass: {way_x:um .2g}, {way_y:um .2g}, {way_z:um "
+        ".2g} um over the record (sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um .2g}).",
     )
     DRIFT_UNOBSERVABLE = (
         "drift_unobservable",
@@ -215,14 +182,8 @@ class EstimateReason(Code):
     )
 
     # Of linear methods
-    LINEAR = (
-        "linear",
-        "A linear estimate.",
-    )
-    LINEAR_RATIOS = (
-        "linear_ratios",
-        "The scale is open: only ratios are determined.",
-    )
+    LINEAR = "linear", "A linear estimate."
+    LINEAR_RATIOS = "linear_ratios", "The scale is open: only ratios are determined."
     LONGEST_PIECE_ONLY = (
         "longest_piece_only",
         "Note: with a gyro alone the attitude is unknown after a gap; only the longest "
@@ -234,8 +195,8 @@ class EstimateReason(Code):
     )
     REGRESSOR_NOISE_TOO_LARGE = (
         "regressor_noise_too_large",
-        "Noise in the regressor reduces a moment of inertia by about {share:% .0f} %: "
-        "do not trust the intervals.",
+        "Noise in the regressor reduces a moment of inertia by about {share:% .0f} %: do not "
+        "trust the intervals.",
     )
     RESIDUAL_TOO_LARGE = (
         "residual_too_large",
@@ -244,8 +205,8 @@ class EstimateReason(Code):
     )
     RESIDUAL_LARGE = (
         "residual_large",
-        "Residual power exceeds sensor noise by up to {power:.2g}x: intervals are "
-        "widened by a factor of {widening:.2g}.",
+        "Residual power exceeds sensor noise by up to {power:.2g}x: intervals are widened by a "
+        "factor of {widening:.2g}.",
     )
     BIAS_BY_NOISE = (
         "bias_by_noise",
@@ -254,14 +215,13 @@ class EstimateReason(Code):
     )
     BIAS_BY_SMOOTHING = (
         "bias_by_smoothing",
-        "Smoothing of the camera data attenuates fast motion and biases {0} by about "
-        "{sds:.2g} sd. Intervals are widened accordingly, but are not trustworthy; use "
-        "a gyro.",
+        "Smoothing of the camera data attenuates fast motion and biases {0} by about {sds:.2g} "
+        "sd. Intervals are widened accordingly, but are not trustworthy; use a gyro.",
     )
     BIAS_BY_MODEL = (
         "bias_by_model",
-        "Neglected terms bias {0} by about {sds:.2g} sd. Intervals are widened "
-        "accordingly, but are not trustworthy.",
+        "Neglected terms bias {0} by about {sds:.2g} sd. Intervals are widened accordingly, but "
+        "are not trustworthy.",
     )
 
     # Of filters and the tracker
@@ -271,8 +231,8 @@ class EstimateReason(Code):
     )
     FILTER_INNOVATIONS_TOO_LARGE = (
         "filter_innovations_too_large",
-        "Filtered to the last row; innovations are {innovation:.2g} times their "
-        "predicted size: inertia, noise or model are wrong; do not trust the estimate.",
+        "Filtered to the last row; innovations are {innovation:.2g} times their predicted size: "
+        "inertia, noise or model are wrong; do not trust the estimate.",
     )
     FILTER_DIVERGED = (
         "filter_diverged",
@@ -282,8 +242,8 @@ class EstimateReason(Code):
         "gyroscopic_torque_left_out",
         "The simplified model neglects the gyroscopic torque and products of inertia. This "
         "biases com by about {com:um .2g} um (|w|^2 dJ / m g: {rule:um .2g} um), more than all "
-        "other errors. The interval is as wide as that bound and not trustworthy as one of 95 "
-        "%. Use another filter.",
+        "other errors. The interval is as wide as that bound and not trustworthy as one of 95 %. "
+        "Use another filter.",
     )
     TRACKED = (
         "tracked",
@@ -291,29 +251,24 @@ class EstimateReason(Code):
     )
     TRACKER_INNOVATIONS_TOO_LARGE = (
         "tracker_innovations_too_large",
-        "Tracked to the last row; innovations are {innovation:.2g} times their "
-        "predicted size: inertia, noise or model are wrong; do not trust the interval.",
+        "Tracked to the last row; innovations are {innovation:.2g} times their predicted size: "
+        "inertia, noise or model are wrong; do not trust the interval.",
     )
-    ROWS_REJECTED = (
-        "rows_rejected",
-        "{rows:.0f} outliers were rejected.",
-    )
+    ROWS_REJECTED = "rows_rejected", "{rows:.0f} outliers were rejected."
     TOO_MANY_ROWS_REJECTED = (
         "too_many_rows_rejected",
-        "{rows:.0f} outliers were rejected: inertia, noise or model are wrong; do not "
-        "trust the interval.",
+        "{rows:.0f} outliers were rejected: wrong inertia or noise; do not trust the interval.",
     )
 
     # Of rest positions
     FROM_RESTS = (
         "from_rests",
-        "The centre of mass follows from {rests:.0f} equilibrium positions; the inertia "
-        "is not estimated.",
+        "The centre of mass follows from {rests:.0f} equilibria; the inertia is not estimated.",
     )
     SWINGS_AT_REST = (
         "swings_at_rest",
-        "But the platform swung by {swing:deg .2g} deg rms at an equilibrium where it "
-        "should rest: the intervals are not trustworthy.",
+        "But the platform swung by {swing:deg .2g} deg rms at an equilibrium where it should "
+        "rest: the intervals are not trustworthy.",
     )
     RESTS_DISAGREE = (
         "rests_disagree",
@@ -321,8 +276,8 @@ class EstimateReason(Code):
     )
     TOO_FEW_RESTS = (
         "too_few_rests",
-        "{rests:.0f} distinct equilibrium positions found, two are needed: move a mass "
-        "sideways and let the platform settle.",
+        "{rests:.0f} distinct equilibrium positions found, two are needed: move a mass sideways "
+        "and let the platform settle.",
     )
     RESTS_TOO_ROUGH = (
         "rests_too_rough",
@@ -342,10 +297,7 @@ class EstimateReason(Code):
     )
 
     # Of a method that cannot begin
-    TOO_FEW_ROWS = (
-        "too_few_rows",
-        "Only {rows:.0f} rows: nothing can be estimated.",
-    )
+    TOO_FEW_ROWS = "too_few_rows", "Only {rows:.0f} rows: nothing can be estimated."
     TOO_FEW_ROWS_WITHOUT_GAP = (
         "too_few_rows_without_gap",
         "Only {rows:.0f} rows without a gap: there is nothing to fit.",
@@ -354,26 +306,14 @@ class EstimateReason(Code):
         "too_few_rows_for_filter",
         "Fewer than {least:.0f} rows without gaps: too few for a filter.",
     )
-    HARDLY_MOVED = (
-        "hardly_moved",
-        "The platform moved too little to determine the unknowns.",
-    )
-    NO_CAMERA = (
-        "no_camera",
-        "The method needs a camera, in the record and in the testbed.",
-    )
-    NO_ATTITUDE = (
-        "no_attitude",
-        "The tracker needs an attitude sensor: the record has no attitude.",
-    )
-    NO_GYRO = (
-        "no_gyro",
-        "The method needs a gyro, in the record and in the testbed.",
-    )
+    HARDLY_MOVED = "hardly_moved", "The platform moved too little to determine the unknowns."
+    NO_CAMERA = "no_camera", "The method needs a camera, in the record and in the testbed."
+    NO_ATTITUDE = "no_attitude", "The tracker needs an attitude sensor: the record has no attitude."
+    NO_GYRO = "no_gyro", "The method needs a gyro, in the record and in the testbed."
     NO_KNOWN_INPUT = (
         "no_known_input",
-        "The method needs a known torque, stored momentum or move that changes: free "
-        "motion determines only the ratio of inertia and centre of mass.",
+        "The method needs a known torque, stored momentum or move that changes: free motion "
+        "determines only the ratio of inertia and centre of mass.",
     )
     INERTIA_TOO_UNCERTAIN = (
         "inertia_too_uncertain",

@@ -14,14 +14,8 @@ class FindingReason(Code):
     )
     SINGLE_ROW = "single_row", "{0}: 1 row, at {first:.6g} s."
     NOT_RECORDED = "not_recorded", "No {0} was recorded."
-    GAP = (
-        "gap",
-        "{0}: gap of {gap:.3g} s at {t:.6g} s.",
-    )
-    MORE_GAPS = (
-        "more_gaps",
-        "{0}: {count:.0f} further, shorter gaps.",
-    )
+    GAP = "gap", "{0}: gap of {gap:.3g} s at {t:.6g} s."
+    MORE_GAPS = "more_gaps", "{0}: {count:.0f} further, shorter gaps."
     UNEVEN_INTERVALS = (
         "uneven_intervals",
         "{0}: sample intervals vary by {scatter:.2g} s around {interval:.3g} s.",
@@ -66,14 +60,8 @@ class FindingReason(Code):
     )
 
     # Masses and motion
-    NO_POSITIONS = (
-        "no_positions",
-        "No mass positions were recorded: the scale remains open.",
-    )
-    NO_MASS_MOVED = (
-        "no_mass_moved",
-        "No mass moved: the scale remains open.",
-    )
+    NO_POSITIONS = "no_positions", "No mass positions were recorded: the scale remains open."
+    NO_MASS_MOVED = "no_mass_moved", "No mass moved: the scale remains open."
     MASS_MOVES = (
         "mass_moves",
         "mass {0} moves from {start:mm .4g} to {end:mm .4g} mm between {t_start:.6g} and "
@@ -105,10 +93,7 @@ class FindingReason(Code):
         "the platform rests at its tilt limit of {limit:deg .3g} deg from {start:.4g} "
         "to {end:.4g} s: no estimate models the contact force.",
     )
-    MORE_TOUCHES = (
-        "more_touches",
-        "{count:.0f} further contacts with the stop.",
-    )
+    MORE_TOUCHES = "more_touches", "{count:.0f} further contacts with the stop."
     SPIN = (
         "spin",
         "spin about the vertical: {first:deg .4g} deg/s at the start, {last:deg .4g} "
@@ -153,10 +138,7 @@ class FindingReason(Code):
         "zero_start",
         "rates start at exactly zero: they look like backward differences, not like gyro data.",
     )
-    QUANTISED = (
-        "quantised",
-        "gyro {0} is quantised to {step:deg .3g} deg/s.",
-    )
+    QUANTISED = "quantised", "gyro {0} is quantised to {step:deg .3g} deg/s."
 
     # Rows of either
     OUTLYING_ROW = (
@@ -164,14 +146,8 @@ class FindingReason(Code):
         "{0}: row {row:.0f} at {t:.6g} s is {off:deg .2g} {1} off the motion of its "
         "neighbours (their scatter: {scatter:deg .2g} {1} per axis).",
     )
-    MORE_OUTLYING_ROWS = (
-        "more_outlying_rows",
-        "{0}: {count:.0f} further outliers.",
-    )
-    OUTLYING_VECTORS = (
-        "outlying_vectors",
-        "{0}: {count:.0f} outliers.",
-    )
+    MORE_OUTLYING_ROWS = "more_outlying_rows", "{0}: {count:.0f} further outliers."
+    OUTLYING_VECTORS = "outlying_vectors", "{0}: {count:.0f} outliers."
     REPEATED_ROW = (
         "repeated_row",
         "{0}: row {first:.0f} repeats the one before, from {start:.6g} to {end:.6g} s.",
@@ -204,30 +180,18 @@ class FindingReason(Code):
         "components (chi-square is {excess:.3g} lower), not as it is read.",
     )
     READ_INVERSE = "read_inverse", 'In a column map, attitude: turns = "laboratory to body".'
-    GYRO_AXES = (
-        "gyro_axes",
-        "the body's x, y, z correspond to the gyro's {names}.",
-    )
+    GYRO_AXES = "gyro_axes", "the body's x, y, z correspond to the gyro's {names}."
     READ_AXES = "read_axes", "In a column map, rate: axes = [{names}]."
-    OTHER_UNIT = (
-        "other_unit",
-        "the gyro reads {scale:.3g} times the rate of the attitude.",
-    )
+    OTHER_UNIT = "other_unit", "the gyro reads {scale:.3g} times the rate of the attitude."
     READ_UNIT = "read_unit", "In a column map, rate: its unit, or a factor."
     NO_RELATION = (
         "no_relation",
         "no order, sign or direction of axes reconciles gyro and attitude: "
         "{unexplained:% .0f} % of the rate remains unexplained.",
     )
-    OTHER_SCALE = (
-        "other_scale",
-        "gyro {0} reads {scale:.3g} times the rate of the attitude.",
-    )
+    OTHER_SCALE = "other_scale", "gyro {0} reads {scale:.3g} times the rate of the attitude."
     SENSORS_AGREE = "sensors_agree", "gyro and attitude agree about {names}."
-    TOO_LITTLE_MOTION = (
-        "too_little_motion",
-        "the motion is too small to compare gyro and attitude.",
-    )
+    TOO_LITTLE_MOTION = "too_little_motion", "the motion is too small to compare gyro and attitude."
     GYRO_ZERO = (
         "gyro_zero",
         "gyro bias: {zero_x:deg .3g}, {zero_y:deg .3g}, {zero_z:deg .3g} deg/s.",

@@ -32,10 +32,7 @@ class LawReason(Code):
         "K_u {gain:um .3g} um/rad, T_u {period:.3g} s (calculated {expected_gain:um .3g} and "
         "{expected_period:.3g}).",
     )
-    CYCLE_REJECTED = (
-        "cycle_rejected",
-        "No reliable limit cycle; using the calculated gains.",
-    )
+    CYCLE_REJECTED = "cycle_rejected", "No reliable limit cycle; using the calculated gains."
     HEIGHT_MISSING = (
         "height_missing",
         "Swing {rounds:.0f}: {missing:um .2f} um remain in height, about {across:um "
@@ -63,17 +60,11 @@ class LawReason(Code):
         "com_too_uncertain",
         "After {swings:.0f} swings r is known to {sd:um .2g} um; {wanted:um .2g} um are required.",
     )
-    LEVEL_AT_HEIGHT = (
-        "level_at_height",
-        "Level, and at its height after {swings:.0f} swings.",
-    )
+    LEVEL_AT_HEIGHT = "level_at_height", "Level, and at its height after {swings:.0f} swings."
     MOTOR_STEP_OR_LESS = "motor_step_or_less", "That is a motor step or less."
     NOTHING_GAINED = "nothing_gained", "The last round gained nothing."
     LEVEL_AGAIN = "level_again", "Level again."
-    ALL_ATTITUDES_MEASURED = (
-        "all_attitudes_measured",
-        "Measured at all attitudes and moved there.",
-    )
+    ALL_ATTITUDES_MEASURED = "all_attitudes_measured", "Measured at all attitudes and moved there."
     MASSES_AT_REST = (
         "masses_at_rest",
         "Gravity has completed {turns:.0f} revolutions of the cone. From the motion of "
@@ -103,7 +94,4 @@ class LawReason(Code):
         "{sd_y:um .3f}, {off_z:um .3f} +/- {sd_z:um .3f}) um off target.",
     )
     FOLLOWED = "followed", "Masses followed tilt and drift."
-    TILTED = (
-        "law_tilted",
-        "Stopped: the platform reaches its tilt limit.",
-    )
+    TILTED = "law_tilted", "Stopped: the platform reaches its tilt limit."

@@ -20,10 +20,7 @@ class MoveReason(Code):
         "below_first",
         f"Move (below the target first: stiffer, and more informative): {LEAVES}",
     )
-    BRAKE = (
-        "brake",
-        f"Move (brake: the platform tips faster than it can be caught): {LEAVES}",
-    )
+    BRAKE = "brake", f"Move (brake: the platform tips faster than it can be caught): {LEAVES}"
     DRIFT = (
         "drift",
         "Drifted to ({was_x:um .1f}, {was_y:um .1f}, {was_z:um .1f}) um; moved masses by "
@@ -37,10 +34,7 @@ class StepReason(Code):
     # Records and what they show
     OBSERVED = "observed", "Observed for {duration:.1f} s."
     RECORDING_READ = "recording_read", "Read {duration:.4g} s of recording."
-    PLAN_CARRIED_OUT = (
-        "plan_carried_out",
-        "Carried out the planned manoeuvre of {duration:g} s.",
-    )
+    PLAN_CARRIED_OUT = "plan_carried_out", "Carried out the planned manoeuvre of {duration:g} s."
     ESTIMATED_BY = "estimated_by", "{0}:"  # the estimate's own reasons follow
     RUN_ESTIMATED = "run_estimated", "{0}:"  # the estimate's own reasons follow
     COM_AT = (
@@ -57,14 +51,8 @@ class StepReason(Code):
 
     # Weights that a person places
     WEIGHTS_TO_MOVE = "weights_to_move", "Move {names}."
-    WEIGHTS_TO_TAKE_OFF = (
-        "weights_to_take_off",
-        "Remove {names}.",
-    )
-    WEIGHTS_TO_PUT_ON = (
-        "weights_to_put_on",
-        "Add {names}.",
-    )
+    WEIGHTS_TO_TAKE_OFF = "weights_to_take_off", "Remove {names}."
+    WEIGHTS_TO_PUT_ON = "weights_to_put_on", "Add {names}."
     PLACING_LEAVES = "placing_leaves", f"That should leave {PAIRS}."
     NOTHING_TO_PLACE = (
         "nothing_to_place",
@@ -84,35 +72,17 @@ class StepReason(Code):
 
     # Why a procedure ends
     WITHIN_TOLERANCE = "goal_reached", "Within tolerance."
-    ESTIMATE_UNUSABLE = (
-        "estimate_cannot_be_used",
-        "The estimate is not usable.",
-    )
-    TIME_USED_UP = (
-        "time_used_up",
-        "The time limit is reached.",
-    )
-    MOVES_USED_UP = (
-        "moves_used_up",
-        "All permitted moves were made.",
-    )
+    ESTIMATE_UNUSABLE = "estimate_cannot_be_used", "The estimate is not usable."
+    TIME_USED_UP = "time_used_up", "The time limit is reached."
+    MOVES_USED_UP = "moves_used_up", "All permitted moves were made."
     NEAREST = (
         "nearest",
         "The masses are where they bring the centre of mass closest to the target: "
         "their travel does not reach it.",
     )
-    ROUNDS_USED_UP = (
-        "rounds_used_up",
-        "All permitted rounds were made.",
-    )
-    TILTED = (
-        "tilt_limit_exceeded",
-        "The platform reaches its tilt limit.",
-    )
-    NOTHING_REQUIRED = (
-        "no_verdict_required",
-        "No requirement was stated, so there is no verdict.",
-    )
+    ROUNDS_USED_UP = "rounds_used_up", "All permitted rounds were made."
+    TILTED = "tilt_limit_exceeded", "The platform reaches its tilt limit."
+    NOTHING_REQUIRED = "no_verdict_required", "No requirement was stated, so there is no verdict."
     LAW_WILL_BE_LATE = (
         "law_will_be_late",
         "{0} should take {expected:.0f} s on this testbed, and has {available:.0f} s: "

@@ -33,10 +33,7 @@ class VerdictReason(Code):
     # On the centre of mass, as a record shows it
     WITHIN_TOLERANCE = "within_tolerance", f"Passed: {WHERE}, within tolerance on every axis."
     OUTSIDE_TOLERANCE = "outside_tolerance", f"Failed: {WHERE}; {{names}} outside the tolerance."
-    TOO_UNCERTAIN = (
-        "too_uncertain",
-        f"Cannot tell: {WHERE}; {{names}} not known precisely enough.",
-    )
+    TOO_UNCERTAIN = "too_uncertain", f"Cannot tell: {WHERE}; {{names}} not known precisely enough."
     RECORD_MISFITS = (
         "record_misfits",
         "Failed: the record since the last move contradicts the estimate before it.",
@@ -47,10 +44,7 @@ class VerdictReason(Code):
     )
     ESTIMATE_UNUSABLE = "estimate_unusable", "Cannot tell:"  # the estimate's own reasons follow
     HELD = "held", f"Passed: {HOLD}, within tolerance on every axis all the time."
-    HOLD_UNDECIDED = (
-        "hold_undecided",
-        f"Cannot tell: {HOLD}; {{names}} not known precisely enough.",
-    )
+    HOLD_UNDECIDED = "hold_undecided", f"Cannot tell: {HOLD}; {{names}} not known precisely enough."
     RAILS_ENDED = (
         "rails_ended",
         f"Failed: held for {{duration:min .3g}} min, until the masses reached the ends "
@@ -60,15 +54,9 @@ class VerdictReason(Code):
     NOT_HELD = "not_held", f"Failed: {HOLD}; {{names}} outside the tolerance."
 
     # On a run that was broken off
-    TILTED = (
-        "tilted",
-        "Stopped: the platform reaches its tilt limit.",
-    )
+    TILTED = "tilted", "Stopped: the platform reaches its tilt limit."
     BENCH_STOPPED = "bench_stopped", "Stopped: {0}."
-    STOPPED_BY_HAND = (
-        "stopped_by_hand",
-        "Stopped by the user: {0}.",
-    )
+    STOPPED_BY_HAND = "stopped_by_hand", "Stopped by the user: {0}."
     STOPPED_BY_SIGNAL = "stopped_by_signal", "Stopped by {0}: {1}."
 
     # On a requirement
@@ -109,10 +97,7 @@ class VerdictReason(Code):
         f"Failed: {{count:.0f}} runs scatter {{factor:.2g}} times as much as their intervals allow "
         f"{SCATTER}",
     )
-    RUNS_DEVIATE = (
-        "runs_deviate",
-        "{both} contributes most.",
-    )
+    RUNS_DEVIATE = "runs_deviate", "{both} contributes most."
     RUNS_INCOMPARABLE = (
         "runs_incomparable",
         "Cannot tell: the {count:.0f} runs have no determined parameter in common.",
@@ -120,10 +105,7 @@ class VerdictReason(Code):
     RUNS_NOT_FITTED = "runs_not_fitted", "Cannot tell whether runs agree: there is no joint fit."
 
     # On a series of balancings
-    EVERY_RUN_PASSED = (
-        "every_run_passed",
-        "Passed: all {count:.0f} runs passed.",
-    )
+    EVERY_RUN_PASSED = "every_run_passed", "Passed: all {count:.0f} runs passed."
     SOME_RUNS_FAILED = (
         "some_runs_failed",
         "Failed: {failed:.0f} of {count:.0f} runs did not pass, number {names}.",
