@@ -112,10 +112,11 @@ def test_a_wrong_place_is_found(name, source):
     assert not set(topics(source)) <= subjects(name)
 
 
-def test_the_readmes_tables_cite_as_the_cards_do():
+def test_the_tables_of_methods_and_laws_cite_as_the_cards_do():
     rows = [
         line.strip("| ").split(" | ")
-        for line in (ROOT / "README.md").read_text("utf-8").splitlines()
+        for page in (ROOT / "docs" / "methods.md", ROOT / "docs" / "laws.md")
+        for line in page.read_text("utf-8").splitlines()
         if line.startswith("| `")
     ]
     checked = 0

@@ -112,7 +112,7 @@ def test_readings_that_are_alike_are_listed_and_nothing_is_written(here, tmp_pat
     words = ("import", f"{tmp_path}/no_gyro.csv", "--write-map", f"{tmp_path}/map.toml")
     code, out = output_of(*words)
     assert code == 1
-    assert "The numbers leave 2 readings alike: choose one, --choose 1 to 2." in out
+    assert "The numbers support 2 interpretations equally: choose one, --choose 1 to 2." in out
     assert not (tmp_path / "map.toml").exists()
     assert output_of(*words, "--choose", "2")[0] == 0
     assert (tmp_path / "map.toml").exists()

@@ -32,7 +32,7 @@ def test_a_camera_lean_is_estimated_and_reported_and_is_no_event(seed):
         lean = found.parameters[found.index(name)]
         assert abs(lean.value - true) < 4.0 * lean.sd, name
     size = np.degrees(np.linalg.norm(found.values(GROUPS["plumb"])))
-    assert f"The camera's vertical leans {size:.2g} deg" in found.outcome.sentence
+    assert f"The camera's vertical is inclined by {size:.2g} deg" in found.outcome.sentence
 
 
 @thorough.whole

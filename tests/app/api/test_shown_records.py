@@ -131,7 +131,7 @@ def test_a_comparison_is_drawn_once_a_method_states_something():
     runs = [made_up(seed=seed) for seed in range(3)]
     assert Compared(bed, {}, comparison(runs), None).plot().get_axes()
     refused = [made_up(ending="refused", sentence="No gyro.")]
-    with pytest.raises(InputError, match="nothing that a figure shows"):
+    with pytest.raises(InputError, match="no data that a figure could show"):
         Compared(bed, {}, comparison(refused), None).plot()
 
 
@@ -145,7 +145,7 @@ def test_a_recording_without_rows_shows_itself_and_is_not_drawn():
     empty = Recording(source="none.csv")
     assert repr(empty) == "Recording of none.csv: no sensor rows"
     assert empty.to_dict()["channels"] == {}
-    with pytest.raises(InputError, match="rows to draw"):
+    with pytest.raises(InputError, match="a record with rows"):
         empty.plot()
 
 

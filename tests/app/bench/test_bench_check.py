@@ -76,7 +76,7 @@ def test_rows_that_arrive_unevenly_are_no_fault_of_a_sensor_without_stamps():
     scattered = [
         each
         for each in frame_results(keeper, Recording(attitude))
-        if "intervals scatter" in each.sentence
+        if "intervals vary" in each.sentence
     ]
     assert [each.good for each in scattered] == [True]
     assert "stamped as they arrive" in scattered[0].sentence
@@ -95,7 +95,7 @@ def test_devices_are_driven_to_and_fro_and_follow():
     said = [each.sentence for each in found]
     assert [each.sentence for each in found if not each.good] == []
     assert "actuator wheels: answers, agrees, rw_x, rw_y, rw_z at rest" in said
-    assert sum("follows; check by eye which way it turns" in each for each in said) == 2
+    assert sum("follows; check its direction of rotation by eye" in each for each in said) == 2
     assert "device rw_z: not driven" in said
 
 

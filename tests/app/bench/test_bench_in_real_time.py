@@ -54,7 +54,7 @@ def test_check_finds_a_sound_bench_sound(bench):
         if code == 0:
             break
     problems = [line for line in out.splitlines() if "PROBLEM" in line]
-    scattered = [line for line in problems if "intervals scatter" in line]
+    scattered = [line for line in problems if "intervals vary" in line]
     assert problems == scattered
     assert "board masses: answers, agrees, x, y, z at home" in out
     assert [f"mass {name}: went 1 mm out and back" in out for name in "xyz"] == [True] * 3

@@ -231,7 +231,7 @@ def test_a_sensor_that_is_hidden_for_ten_seconds_is_waited_for():
 def test_a_sensor_that_does_not_come_back_ends_the_run_in_words():
     with lab() as found:
         spoil(found.imu, silent)()
-        with pytest.raises(BenchStopped, match="no sensor has given a row for 30 s"):
+        with pytest.raises(BenchStopped, match="no sensor has delivered a row for 30 s"):
             found.bench.read(1.0)
 
 

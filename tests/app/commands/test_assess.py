@@ -41,7 +41,7 @@ def test_tables_end_with_a_verdict(records, capsys):
 def test_measurements_along_a_recording_are_reported_and_plotted(records, tmp_path, capsys):
     assert assess(records[0], "--windows-s", "11", "--out", str(tmp_path / "o")) == 0
     text = capsys.readouterr().out
-    assert "The centre of mass over time, by 4 measurements" in text
+    assert "Centre of mass over time, 4 windows" in text
     assert "Allan deviation, 22 s" in text
     assert (tmp_path / "o" / "figures" / "com_over_hours.svg").exists()
 
@@ -53,7 +53,7 @@ def test_a_generous_requirement_passes(records, capsys):
 
 def test_without_a_requirement_there_is_no_verdict(records, capsys):
     assert assess(records[0]) == 0
-    assert "Nothing is required" in capsys.readouterr().out
+    assert "No requirement was stated" in capsys.readouterr().out
 
 
 def test_two_recordings_are_compared_and_the_document_holds_both(

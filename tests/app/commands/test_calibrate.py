@@ -38,7 +38,7 @@ def test_it_says_what_it_found_and_writes_it_with_the_comments(folder, capsys):
     said = capsys.readouterr().out
     assert "backlash, mm" in said
     assert "Never moved, so not shown: x2, y1, y2, z1, z2." in said
-    assert "that of the stated inertia" in said
+    assert "is fixed by the stated inertia" in said
     assert "not written to a testbed file" in " ".join(said.split())
     text = (folder / "new.toml").read_text(encoding="utf-8")
     assert "# from CAD, without the cabling" in text

@@ -131,7 +131,7 @@ def test_a_terminals_log_of_a_vectornav_by_hand(equipoise, tmp_path):
     done = equipoise("convert", "putty.log", "rows.csv", "--as", "vectornav", "--rate-hz", 40)
     assert done.code == 0, done.err
     assert "4 messages, 3 of other kinds, 4 rows; 1 broken" in done.out
-    assert "the last line is left out" in done.out
+    assert "the last line is ignored" in done.out
     assert "spaced at 40 Hz" in done.out
     found = read_recording("rows.csv").rate
     np.testing.assert_allclose(found.t, [0, 0.025, 0.075, 0.1], atol=1e-9)

@@ -150,7 +150,7 @@ def test_it_ends_with_1_when_nobody_can_be_recommended(equipoise, monkeypatch):
     monkeypatch.setattr(comparison_runs, "run_methods", lambda *_: comparison(runs))
     done = equipoise("compare", "sputnix", "--methods")
     assert done.code == 1
-    assert "no method to recommend" in reported_of(done)
+    assert "no method can be recommended" in reported_of(done)
     assert "tracker misses by more than 5 sd in 1 of 20 runs" in reported_of(done)
 
 

@@ -24,7 +24,7 @@ def one_rail(tmp_path):
 def test_it_reports_reach_steps_measurements_budget_and_the_limiting_contribution(equipoise):
     done = equipoise("design", "sputnix", *SHORT)
     assert done.code == 0
-    for text in ("110", "1.1", "153", "limits the result", "What to buy next"):
+    for text in ("110", "1.1", "153", "limits the result", "Improvements, most effective first"):
         assert text in done.out
     assert "Not stated, and not counted: lean of the rails, warmth" in done.out
 

@@ -196,7 +196,7 @@ def test_it_ends_with_1_when_every_law_that_reaches_it_passed_what_is_wrong(equi
     """As the last line says: no law is to be recommended, however little torque it leaves."""
     monkeypatch.setattr(sys.modules[__name__], "SAID", verdict_of(True))
     done = equipoise(*THREE)
-    assert "no law to recommend" in reported_of(done)
+    assert "No law can be recommended" in reported_of(done)
     assert done.code == 1
 
 
@@ -204,7 +204,7 @@ def test_a_testbed_that_suits_no_law_is_refused(equipoise):
     """Gyros and sensors, and no mass to move."""
     done = equipoise("compare", "kau", "--laws", "--runs", "1")
     assert (done.code, done.out) == (2, "")
-    assert "devices for none of the laws" in done.err
+    assert "devices of none of the laws" in done.err
 
 
 WRONG = {

@@ -113,8 +113,8 @@ placed = ["{pile}"]
 WRONG = {
     "recording without a session": (["--recording", "run1.csv"], "--session FILE"),
     "session without manual": (None, "--manual"),
-    "a law besides": (["--law", "pid"], "nothing moves by itself"),
-    "moves besides": (["--max-moves", "2"], "nothing moves by itself"),
+    "a law besides": (["--law", "pid"], "manual balancing moves nothing by itself"),
+    "moves besides": (["--max-moves", "2"], "manual balancing moves nothing by itself"),
     "reading nothing": (["--from-s", "3"], "--recording FILE"),
     "no rounds": (["--max-rounds", "0"], "a number above 0"),
     "another target": (["--session", "s.toml", "--target-um", "0", "0", "-50"], "begun"),

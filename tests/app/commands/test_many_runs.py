@@ -66,7 +66,7 @@ def test_laws_are_kept_too_and_another_question_is_refused(equipoise):
     refused = equipoise(*LAWS, "--tilt-deg", 10)
     assert refused.code == 2
     assert "another question (tilt: 0.349" in refused.err
-    assert "the same question, or another folder" in refused.err
+    assert "the same study, or another folder" in refused.err
 
 
 def test_results_in_a_file_of_another_kind_are_named(equipoise, tmp_path):

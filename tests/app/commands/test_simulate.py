@@ -25,10 +25,10 @@ def test_a_record_on_the_stop_is_said_to_be(equipoise, tmp_path):
     path, out = written(tmp_path, 100.0), tmp_path / "run.csv"
     done = equipoise("simulate", path, "--out", out, "--duration-s", 12)
     assert done.code == 0
-    assert "tilts to its limit of 20 deg from" in done.out
-    assert "the pressure of its stop" in done.out
+    assert "rests at its tilt limit of 20 deg from" in done.out
+    assert "no estimate models the contact force" in done.out
     read = equipoise("inspect", out, "--testbed", path)
-    assert "! the platform tilts to its limit of 20 deg from" in read.out
+    assert "! the platform rests at its tilt limit of 20 deg from" in read.out
 
 
 def test_a_record_within_the_limit_says_nothing_of_it(equipoise, tmp_path):

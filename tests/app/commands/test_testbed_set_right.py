@@ -35,10 +35,10 @@ def test_every_command_that_reads_a_testbed_says_it():
 def test_a_body_that_cannot_be_is_said_once(equipoise, flat):
     done = equipoise("simulate", flat, "--out", "run.csv", "--duration-s", 5)
     assert done.code == 0
-    assert done.err.count("the testbed's inertia is no body's") == 1
+    assert done.err.count("the testbed's inertia is physically inconsistent") == 1
     for command in ("identify", "observe"):
         done = equipoise(command, "run.csv", "--testbed", flat)
-        assert (done.out + done.err).replace("\n", " ").count("inertia is no body's") == 1
+        assert (done.out + done.err).replace("\n", " ").count("inertia is physically inconsistent") == 1
 
 
 def test_a_body_that_can_be_is_taken_in_silence(equipoise, flat):

@@ -40,7 +40,7 @@ def test_both_levels_are_simulated_and_written_down_as_one(equipoise, tmp_path, 
     done = equipoise(*WORDS, "--seed", SEED, "--out", "out")
     assert done.code == 0
     text = reported(done.out)
-    assert text.index("By hand to within (55, 55, 55) um") < text.index("Put on")
+    assert text.index("Weights first, to within (55, 55, 55) um") < text.index("Add ")
     assert text.index("can correct the rest") < text.index("Move (to target)")
     assert "handled" in text
     assert "moves of masses" in text
@@ -83,7 +83,7 @@ def test_a_session_goes_on_with_the_masses_from_what_its_recordings_have_shown(
     assert "--manual --then-masses --session s.toml --recording run1.csv" in reported(first.out)
     early = equipoise(*words, "--bench", "--yes")
     assert early.code == 2
-    assert "not brought within reach" in reported(early.err)
+    assert "still out of reach of its masses" in reported(early.err)
     for file in files:
         done = equipoise(*words, "--recording", file)
         assert done.code == 0
@@ -108,16 +108,16 @@ def test_a_session_is_of_one_kind(equipoise):
     assert equipoise(*WORDS, "--session", "s.toml").code == 0
     other = equipoise(*WORDS[:3], "--session", "s.toml")
     assert other.code == 2
-    assert "with which it was begun" in reported(other.err)
+    assert "with which the session started" in reported(other.err)
 
 
 WRONG = {
     "masses without hands": (["balance", "two-level", "--then-masses"], "--manual with them"),
     "a bench without a session": ([*WORDS, "--bench"], "--session FILE"),
     "a recording and a bench": (
-        [*WORDS, "--session", "s.toml", "--recording", "a.csv", "--bench"], "the recording first",
+        [*WORDS, "--session", "s.toml", "--recording", "a.csv", "--bench"], "first the recording",
     ),
-    "a series": ([*WORDS, "--series", "3"], "a person places weights first"),
+    "a series": ([*WORDS, "--series", "3"], "weights are placed by a person first"),
     "no weights": (["balance", "sputnix", "--manual", "--then-masses"], "no weights to place"),
     "no masses": (["balance", "weights-by-hand", *WORDS[2:]], "no sliding masses"),
     "a law that needs a gyro": ([*WORDS, "--law", "pid"], "without a gyro"),
@@ -143,5 +143,5 @@ def test_hands_that_give_up_end_with_1(equipoise, tmp_path):
     write_testbed(few, tmp_path / "few.toml")
     done = equipoise("balance", "few.toml", *WORDS[2:], "--max-rounds", "1", "--seed", "2")
     assert done.code == 1
-    assert "The rounds are used up" in reported(done.out)
+    assert "All permitted rounds were made" in reported(done.out)
     assert "Move (" not in done.out

@@ -100,7 +100,7 @@ def a_viewer_commands_nothing(page):
 
 def a_wrong_token_is_refused(page, running):
     take_command(page, "wrong")
-    expect(page.get_by_text("not the token")).to_be_visible(timeout=SOON)
+    expect(page.get_by_text("Wrong token")).to_be_visible(timeout=SOON)
     expect(button(page, "Start balancing")).to_be_disabled()
     take_command(page, running.token)
     expect(button(page, "Start balancing")).to_be_enabled(timeout=SOON)
@@ -109,7 +109,7 @@ def a_wrong_token_is_refused(page, running):
 def a_second_commander_is_refused(chromium, page, running):
     second, _ = opened(chromium, running)
     take_command(second, running.token)
-    expect(second.get_by_text("Another page commands")).to_be_visible(timeout=SOON)
+    expect(second.get_by_text("Another page is in command")).to_be_visible(timeout=SOON)
     expect(button(second, "Stop")).to_be_disabled()
     second.close()
     expect(button(page, "Stop")).to_be_enabled()

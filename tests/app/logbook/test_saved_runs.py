@@ -340,11 +340,11 @@ def test_nothing_lies_beyond_the_paper(runs, kind):
 def test_a_report_states_its_provenance(runs, kind, record_file):
     folder = folders(runs, kind)[0]
     page = (folder / "report.html").read_text(encoding="utf-8")
-    for section in ("What was asked", "Platform", "Mass properties", "What the data cannot see"):
+    for section in ("What was asked", "Platform", "Mass properties", "What the data cannot show"):
         assert f"<h2>{section}</h2>" in page
     for word in ("command to repeat", "95 % interval", "sha256 of testbed.toml"):
         assert word in page
-    assert ("Noise floor of this record (95 %)" in page) == (kind == "balance")
+    assert ("Detection limit (95 %)" in page) == (kind == "balance")
     for path in (folder / "testbed.toml", folder / "recording.csv"):
         if path.exists():
             assert hashlib.sha256(path.read_bytes()).hexdigest() in page

@@ -59,7 +59,7 @@ def test_figures_of_steps_say_where_the_masses_are(folder):
     page = (folder / "report.html").read_text(encoding="utf-8")
     identified, balanced = page.split("<h2>Balance</h2>")
     assert identified.count("masses at home, um in body axes, with bars") == 3
-    assert "masses as they stand, um" not in identified
+    assert "in their present positions, um" not in identified
     assert balanced.count("with bars of two standard deviations; shaded: the target") >= 3
     drawn = (folder / "figures" / "step04_estimate.svg").read_text()
     assert "momentum_laboratory" in drawn

@@ -57,8 +57,8 @@ def test_a_sound_record_has_no_problem() -> None:
         (lambda w: w * [-1, 1, 1], 'axes = ["-x", "y", "z"]'),
         (lambda w: w[:, [1, 0, 2]], 'axes = ["y", "x", "z"]'),
         (lambda w: w[:, [0, 2, 1]] * [1, -1, 1], 'axes = ["x", "z", "-y"]'),
-        (lambda w: np.degrees(w), "the gyro is 57.3 times what the attitude shows"),
-        (lambda w: w * [1, 1, 1.3], "gyro z is 1.3 times what the attitude shows"),
+        (lambda w: np.degrees(w), "the gyro reads 57.3 times the rate of the attitude"),
+        (lambda w: w * [1, 1, 1.3], "gyro z reads 1.3 times the rate of the attitude"),
         (lambda w: np.round(w / 0.01) * 0.01, "gyro x comes in steps of 0.573 deg/s"),
         (lambda w: w * [1, 0, 1], "gyro y is 0 deg/s in every row"),
     ],
@@ -72,7 +72,7 @@ def test_a_gyro_zero_offset_is_reported() -> None:
     """0.5 deg/s on y shows in the offset and is no disagreement."""
     recording = recorded(lambda w: w + [0, np.radians(0.5), 0])
     assert said(recording) == ""
-    zero = next(f.sentence for f in findings(recording) if "gyro zero" in f.sentence)
+    zero = next(f.sentence for f in findings(recording) if "gyro bias" in f.sentence)
     assert float(zero.split(", ")[1]) == pytest.approx(0.5, abs=0.02)
 
 
@@ -171,7 +171,7 @@ def test_spin_and_tilt_are_reported() -> None:
     t = np.arange(100) * 0.1
     recording = Recording(attitude=Samples(t, exponential(np.outer(t, [0, 0, 0.5]))))
     motion = said(recording, "motion")
-    assert "28.65 deg/s at first, 28.65 deg/s at last" in motion
+    assert "28.65 deg/s at the start, 28.65 deg/s at the end" in motion
     assert "0 to 0 deg" in motion
 
 

@@ -34,7 +34,7 @@ def test_a_brief_touch_has_its_time():
     assert codes([found]) == ["MEETS_STOP"]
     assert found.kind == "problem"
     np.testing.assert_allclose(found.span, (2.0, 2.4))
-    assert "to its limit of 10 deg at 2 s" in found.sentence
+    assert "its tilt limit of 10 deg at 2 s" in found.sentence
 
 
 def test_lying_on_it_has_a_span():

@@ -70,8 +70,8 @@ def test_the_testbed_is_held_against_it() -> None:
     assert fits.kind == "content"
     (wrong,) = offset_findings(clock_offset(*rows), AttitudeSensor(10.0, 1e-3), gyro)
     assert wrong.kind == "problem"
-    assert "by the testbed it would be 0 ms" in wrong.sentence
-    reported = float(wrong.sentence.split("stamped ")[1].split(" ms")[0])
+    assert "the testbed states 0 ms" in wrong.sentence
+    reported = float(wrong.sentence.split("gyro's by ")[1].split(" ms")[0])
     assert reported == pytest.approx(40, abs=4)
 
 

@@ -115,7 +115,7 @@ def test_single_frames_among_means_are_named(rows) -> None:
     assert reported.odd == rows
     assert reported.window == pytest.approx(0.025 * np.sqrt(15), rel=2e-3)
     text = said(Samples(T, q), Samples(T, norm))
-    assert f"problem: row {rows[-1] + 1} at {T[rows[-1]]:g} s is not a mean" in text
+    assert f"problem: row {rows[-1] + 1} at {T[rows[-1]]:g} s is not averaged like the others" in text
 
 
 def test_a_window_that_changes_is_said() -> None:
@@ -125,7 +125,7 @@ def test_a_window_that_changes_is_said() -> None:
     lengths = Samples(T, np.where(late, two[1].values, four[1].values))
     reported = row_averaging(four[0], lengths)
     assert reported is None or not reported.steady
-    assert "windows of different width" in said(four[0], lengths)
+    assert "over different windows" in said(four[0], lengths)
 
 
 def test_the_rows_of_a_sensor_with_the_window_stand_for_the_same_moments() -> None:
@@ -158,5 +158,5 @@ def test_the_real_record() -> None:
     assert reported.odd == (600,)
     assert reported.steady
     sentences = " ".join(f.sentence for f in findings(record))
-    assert "row 601 at 60 s is not a mean" in sentences
+    assert "row 601 at 60 s is not averaged like the others" in sentences
     assert "the mean over 0.0971 s" in sentences

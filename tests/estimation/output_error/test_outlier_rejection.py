@@ -57,7 +57,7 @@ def test_wild_rows_of_an_accelerometer_go_and_no_others():
 def test_a_robust_estimate_says_how_many_it_left_out():
     found = METHODS["trajectory"].run(spoiled()[1], BED, Options(robust=True))
     assert found.outcome.usable
-    assert "6 outlying rows are left out." in found.outcome.sentence
+    assert "6 outliers were removed." in found.outcome.sentence
 
 
 def test_where_many_rows_deviate_none_is_an_outlier():

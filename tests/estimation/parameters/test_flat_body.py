@@ -1,4 +1,4 @@
-"""A body whose inertia lies at the edge of the possible is said to be flat."""
+"""A body whose inertia lies at the limit of physical consistency is said to be flat."""
 
 from dataclasses import replace
 from functools import cache
@@ -42,7 +42,7 @@ def test_the_gap_is_that_of_the_greatest_moment():
     (reason,) = flat_reasons(MassProperties(1.0, np.zeros(3), np.diag([1.0, 1.0, 1.9999])))
     assert reason.code is EstimateReason.FLAT_BODY
     assert reason.numbers["gap"] == pytest.approx(1e-4 / 1.9999, rel=1e-6)
-    assert "at the edge of the possible" in reason.sentence
+    assert "at the limit of physical consistency" in reason.sentence
     assert "0.005 % below the sum" in reason.sentence
 
 

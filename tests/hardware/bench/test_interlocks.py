@@ -94,7 +94,7 @@ def test_a_mass_beyond_its_travel_stops():
 def test_a_mass_that_stands_elsewhere_than_it_was_sent_stops():
     trip = tripped(replace(CALM, boards={"masses": board(at=3e-3, goal=5e-3)}), BED, LIMITS)
     assert trip.code == "mismatch"
-    assert "3.00 mm and was sent to 5.00 mm" in trip.sentence
+    assert "3.00 mm; its commanded position is 5.00 mm" in trip.sentence
     assert kind(boards={"masses": board("moving", at=3e-3, goal=5e-3)}) is None
 
 

@@ -191,7 +191,7 @@ def test_invalid_numbers_are_reported_without_runtime_warnings(tmp_path):
     turn["q_x"] = np.full(6, 1e200)
     savemat(tmp_path / "long.mat", {"time_s": np.arange(6.0), **turn})
     with pytest.raises(
-        InputError, match=r"1e\+200, in SI beyond 1e\+09, more than any bench reaches"
+        InputError, match=r"1e\+200, beyond 1e\+09 in SI, more than any bench reaches"
     ):
         read_recording(tmp_path / "long.mat")
 

@@ -34,7 +34,7 @@ CASES = {
     "infinite": (row(3, "0.2,1,0,0,-inf"), ", line 4, column 'q_z'", ["'-inf'"]),
     "a blank among others": (row(3, "0.2,1,0,,0"), ", line 4, column 'q_y'", ["a blank cell"]),
     "a blank time": (row(3, ",1,0,0,0"), ", line 4, column 'time_s'", ["a blank cell"]),
-    "time backwards": (row(3, "0.05,1,0,0,0"), ", line 4", ["0.1 s to 0.05 s", "grow"]),
+    "time backwards": (row(3, "0.05,1,0,0,0"), ", line 4", ["0.1 s to 0.05 s", "increasing times"]),
     "far from unit": (row(5, "0.4,0.9,0,0,0"), ", line 6", ["length 0.9", "length 1"]),
     "zero quaternion": (row(5, "0.4,0,0,0,0"), ", line 6", ["length 0"]),
     "too few cells": (row(3, "0.2,1,0"), ", line 4", ["3 cells", "5, as the header"]),

@@ -169,6 +169,6 @@ def test_a_factor_beyond_any_bench_is_refused(tmp_path) -> None:
     body = [f"{line},1e9" for line in lines(GOOD)]
     columns = read_column_map(tmp_path / "m.toml")
     with pytest.raises(
-        InputError, match=r"line 2, column 'big'.*in SI beyond 10000, more than any bench reaches"
+        InputError, match=r"line 2, column 'big'.*beyond 10000 in SI, more than any bench reaches"
     ):
         read(tmp_path, body, ",".join([*NAMES, "big"]), columns=columns)

@@ -349,7 +349,7 @@ CASES = {
         DEVICES[DEVICES.index("[[magnetorquer]]") :],
         "[truth]\nfield_uT = [1, 2, 3]\n",
         "truth.field_uT",
-        ["none that is known", "[magnetic_field]"],
+        ["no stated field", "[magnetic_field]"],
     ),
 }
 

@@ -101,7 +101,7 @@ def test_what_was_taken_is_written_and_read_as_it_is():
     ],
 )
 def test_what_is_no_chance_is_refused(greatest, more):
-    with pytest.raises(InputError, match="impossible inertia"):
+    with pytest.raises(InputError, match="physically inconsistent inertia"):
         read(greatest, more)
 
 

@@ -83,7 +83,7 @@ def test_the_direction_to_the_lamp_is_stated_once() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "key", "words"),
     [
-        ("[90.5, 600]", "[59, 600]", "truth.lamp.on_s", "times from 0 on, each later"),
+        ("[90.5, 600]", "[59, 600]", "truth.lamp.on_s", "increasing times from 0 on"),
         ("[0, 60]", "[-1, 60]", "truth.lamp.on_s", "times from 0 on"),
         ("[[0, 60], [90.5, 600]]", "[]", "truth.lamp.on_s", "1 or more"),
         ("[lamp]\nwarms_K = 3\ntime_constant_s = 90\n", "", "truth.lamp.warms_K", "[lamp]"),

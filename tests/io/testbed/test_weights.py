@@ -73,7 +73,7 @@ BAD = {
     "no weights": (PLATFORM + WEIGHT.replace("count = 30", "count = 0") + GRID, "at least 1"),
     "two of one name": (PLATFORM + WEIGHT + WEIGHT + GRID, "a second 'washer'"),
     "two grids of one name": (WHOLE + GRID, "a second 'deck'"),
-    "a place that is not": (WHOLE.replace('"E3"', '"J1"'), r"taken.*'J1', which is no place"),
+    "a place that is not": (WHOLE.replace('"E3"', '"J1"'), r"taken.*'J1', which is not a place"),
     "a skew grid": (WHOLE.replace("[0.0, 1.0, 0.0]", "[1.0, 1.0, 0.0]"), "letters' axis"),
     "weights without places": (PLATFORM + WEIGHT, r"no \[\[weight_grid\]\]"),
     "places without weights": (PLATFORM + GRID, r"no \[\[weight\]\]"),

@@ -150,7 +150,7 @@ def test_it_is_said_which_limit_is_passed_by_how_much_and_what_may_help():
     where = space("sputnix", 120.0)
     text = str(out_of_reach(where, np.radians([[70.8, 4.0], [20.0, 3.0]]), 28, alone=True))
     assert "does with 1 of 2 platforms" in text
-    assert "others come to 2.4 times the tilt limit of 30 deg; wanted" in text
+    assert "others reach 2.4 times the tilt limit of 30 deg; wanted" in text
     assert "prior record (the centre of mass is known to 40 um only)" in text
     assert "rate" not in text
     text = str(out_of_reach(where, np.radians([[29.0, 11.0], [2.0, 8.0]]), 28, alone=False))
@@ -158,7 +158,7 @@ def test_it_is_said_which_limit_is_passed_by_how_much_and_what_may_help():
     assert "come to 2.2 times the rate limit of 5 deg/s" in text
     assert "tilt" not in text
     assert "prior record" not in text
-    assert text.endswith("a greater limit of the rate")
+    assert text.endswith("a higher rate limit")
 
 
 def low(com, sd=5e-6):

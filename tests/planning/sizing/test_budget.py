@@ -241,7 +241,7 @@ def test_improvements_are_sorted_best_first_and_useless_ones_omitted():
 def test_what_limits_is_named_with_its_masses():
     text = limit_sentence(case(), usual(), better())
     assert usual().lines[0].name == "stops"
-    assert text.startswith("The accuracy with which masses stop (0.333 mm of x1, x2, y1, y2, z1")
+    assert text.startswith("Positioning accuracy of the masses (0.333 mm of x1, x2, y1, y2, z1")
     assert f"from {1e6 * usual().torque:.3g} to" in text
 
 
@@ -258,7 +258,7 @@ def test_a_verdict_needs_torque_and_reach():
         assert open_.sentence.startswith("Cannot tell")
     missed = verdict(near, 0.84 * near.torque, better())
     assert missed.outcome == "failed"
-    assert f"enough would be: {better()[0].name}" in missed.sentence
+    assert f"sufficient would be: {better()[0].name}" in missed.sentence
     assert verdict(near, 1e-9, better()).code == "met_by_no_change"
 
 
@@ -267,4 +267,4 @@ def test_the_shortest_record_is_judged():
     assert found.case.measurement_time == 60.0
     assert [budget.first.duration for budget in found.budgets] == [60.0, 120.0]
     assert found.budget.torque == pytest.approx(usual().torque)
-    assert not found.reached.startswith("The masses reach")
+    assert not found.reached.startswith("The masses act")

@@ -70,7 +70,7 @@ def test_too_uncertain_an_estimate_gives_an_inconclusive_verdict(known):
     judged = verdict(known, None, 0.0, Aim(known.com, known.sd))
     assert judged.outcome == "undecided"
     assert judged.sentence.startswith("Cannot tell")
-    assert "not known well enough" in judged.sentence
+    assert "not known precisely enough" in judged.sentence
 
 
 @pytest.mark.parametrize(("off", "answer"), [(1.9, "undecided"), (2.1, "failed")])

@@ -111,7 +111,7 @@ def test_the_move_shows_whether_it_is_fed_forward_or_not():
     np.testing.assert_allclose(computed.ours, np.array([-10, -10, -50]) * 15.6 / 14.24 / 10 * 10,
                                rtol=1e-6)  # fmt: skip
     assert computed.agreement is Agreement.AGREES
-    assert rows["what is missing of the height, move fed forward"].agreement is Agreement.BETTER
+    assert rows["missing part of the height, move fed forward"].agreement is Agreement.BETTER
 
 
 def test_the_true_course_drifts_and_jumps_by_the_loads():

@@ -120,7 +120,7 @@ def gyro_axes_in_cyclic_order(motion: Motion, folder: Path) -> Path:
     return saved(folder, text(columns(motion, w=motion.w[:, [1, 2, 0]])))
 
 
-@answered(Refused("laboratory axes", "turn such rates into body axes", by=("import",)))
+@answered(Refused("laboratory axes", "convert the rates to body axes", by=("import",)))
 def rates_in_laboratory_axes(motion: Motion, folder: Path) -> Path:
     turn = Rotation.from_quat(motion.q[:, [1, 2, 3, 0]])
     return saved(folder, text(columns(motion, w=turn.apply(motion.w))))

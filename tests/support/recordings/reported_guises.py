@@ -89,7 +89,7 @@ def comma_comma(motion: Motion, folder: Path) -> Path:
     return saved(folder, "\n".join([head, *(row.replace(".", ",") for row in rows)]))
 
 
-@answered(Reads(said="A terminal's clock stands before each line"))
+@answered(Reads(said="Each line starts with the terminal's clock"))
 def arduino_stamp(motion: Motion, folder: Path) -> Path:
     head, *rows = lines(columns(motion), "\t")
     ms = np.round(1e3 * motion.t).astype(int).tolist()

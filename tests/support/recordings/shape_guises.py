@@ -172,7 +172,7 @@ def names_with_equals_signs(motion: Motion, folder: Path) -> Path:
     return saved(folder, "\n".join(rows))
 
 
-@answered(Reads(said="A terminal's clock stands before each line"))
+@answered(Reads(said="Each line starts with the terminal's clock"))
 def names_with_a_space_behind_a_terminals_clock(motion: Motion, folder: Path) -> Path:
     rows = with_names(motion, ": ", "\t")
     return saved(folder, "\n".join(f"14:03:21.000 -> {row}" for row in rows), "run.txt")

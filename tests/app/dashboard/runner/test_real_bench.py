@@ -50,7 +50,7 @@ def test_a_real_bench_is_practised_homed_let_go_and_balanced(tmp_path, monkeypat
         room.turn(10)
         room.request(HELD)
         room.turn(2)
-        assert in_turn(room, "Practising", "The masses go home: hold", "let the platform go")
+        assert in_turn(room, "Practice", "The masses move home: hold", "release the platform")
         words = [step["outcome"] for step in room.reported.steps]
         assert words[-1] == "passed", room.reported.steps[-1]
         truth = found.emulated.platform.truth().com
@@ -95,7 +95,7 @@ def test_an_interlock_ends_a_balancing_and_is_shown(tmp_path, monkeypatch):
         room.request(HELD)
         room.turn(2)
         assert room.reported.steps[-1]["outcome"] == "halted"
-        assert "no sensor has given a row" in room.reported.state["trip"]
+        assert "no sensor has delivered a row" in room.reported.state["trip"]
         assert room.reported.state["phase"] == "idle"
 
 

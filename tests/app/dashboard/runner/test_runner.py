@@ -282,10 +282,10 @@ def test_a_real_bench_is_not_balanced_unless_somebody_holds_it(nanosat, tmp_path
     room = Room(replace(simulated(nanosat, 1), kind="real"), tmp_path)
     room.request(BALANCE)
     room.turn(2)
-    assert "somebody who holds it" in room.reported.state["note"]
+    assert "a person who holds it" in room.reported.state["note"]
     room.request(requests.Anew(2))
     room.turn(2)
-    assert "a dashboard of its own" in room.reported.state["note"]
+    assert "a separate dashboard" in room.reported.state["note"]
 
 
 # --- Pace ----------------------------------------------------------------------------------------

@@ -242,12 +242,12 @@ def test_sockets_are_limited():
 
 def test_the_token_and_one_page_at_a_time():
     guard = Guard(TOKEN)
-    assert "not the token" in guard.take("a", "wrong")
-    assert "not the token" in guard.take("a", "")
+    assert "Wrong token" in guard.take("a", "wrong")
+    assert "Wrong token" in guard.take("a", "")
     assert not guard.commands("a")
     assert guard.take("a", TOKEN) == ""
     assert guard.take("a", TOKEN) == ""
-    assert "Another page commands" in guard.take("b", TOKEN)
+    assert "Another page is in command" in guard.take("b", TOKEN)
     assert guard.commands("a")
     assert not guard.commands("b")
     guard.leave("b")
