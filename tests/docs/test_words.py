@@ -35,8 +35,8 @@ LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
 QUOTED = re.compile(r'"[^"]*"')
 ITEM = re.compile(r"^\s*(?:[-*+]|\d+\.)\s+")
 WORD = re.compile(r"[^\W\d_]{2,}(?:[-'][^\W\d_]+)*|\b[aAI]\b")
-ABBREVIATED = re.compile(r"\b(Eqs?|Figs?|Tab|No|vs|al|approx|ca|cf|resp|p|pp|e\.g|i\.e)\.$")
-END = re.compile(r"(?<!\.\.)[.!?][\")']*(?=\s)")
+ABBREVIATED = re.compile(r"\b(Eqs?|Figs?|Tab|No|vs|al|approx|ca|cf|resp|e\.g|i\.e)\.$")
+END = re.compile(r"(?<!\.\.)[.!?](?:(?=\s)|[\")']+(?=\s+[A-Z(`]))")
 
 
 @dataclass(frozen=True)
