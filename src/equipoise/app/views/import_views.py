@@ -266,7 +266,7 @@ def _worse(reading: TableReading, best: TableReading) -> str:
     if reading.gyro is None or best.gyro is None:
         return ", without a gyro"
     times = sqrt(reading.gyro.misfit / best.gyro.misfit) if best.gyro.misfit > 0 else inf
-    return f" leaves {times:.3g} times as much of the turning"
+    return f" leaves {times:.3g} times the residual rotation"
 
 
 def _differs(reading: TableReading, other: TableReading) -> str:

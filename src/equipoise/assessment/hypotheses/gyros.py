@@ -26,11 +26,11 @@ FEWEST = 20  # spans (chosen)
 TRIED = 8  # columns that are tried as gyros, chosen: two inertial units and a magnetometer
 ORDERS = [(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]
 SIGNS = [(x, y, z) for x in (1, -1) for y in (1, -1) for z in (1, -1)]
-# What one count is, rad/s: the units in use, then data sheets of common gyros, deg/s a count.
+# What one count is, rad/s: the units in use, then data sheets of common gyros, deg/s per count.
 SHEETS = (1 / 131, 1 / 65.5, 1 / 32.8, 1 / 16.4, 8.75e-3, 17.5e-3, 35e-3, 70e-3, 1 / 14.375,
           1 / 16, 1 / 900)  # fmt: skip
 RATES = {"rad/s": 1.0, "deg/s": DEG, "mrad/s": MILLI, "mdeg/s": MILLI * DEG, "rpm": RPM} | {
-    f"{sheet:.6g} deg/s a count": sheet * DEG for sheet in SHEETS
+    f"{sheet:.6g} deg/s per count": sheet * DEG for sheet in SHEETS
 }
 NEAR = 0.04  # by which a factor may miss a known one (chosen: above the scale error of gyros)
 

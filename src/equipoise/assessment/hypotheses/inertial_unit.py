@@ -31,7 +31,7 @@ TIMES = 4.0  # by which another order must leave less than the plain one to be t
 GYRO_WORDS = ("gyr", "gyro", "omega", "rate", "angvel")
 # What one count is, m/s^2: units in use, then data sheets of common accelerometers.
 ACCELERATIONS = {"m/s2": 1.0, "g0": G0} | {
-    f"1/{counts} g0 a count": G0 / counts for counts in (256, 1024, 2048, 4096, 8192, 16384)
+    f"1/{counts} g0 per count": G0 / counts for counts in (256, 1024, 2048, 4096, 8192, 16384)
 } | {"mg0": G0 / 1000}  # fmt: skip
 
 
