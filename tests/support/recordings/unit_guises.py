@@ -21,7 +21,7 @@ def counted(name: str, per_count: float) -> Variant:
     def write(motion: Motion, folder: Path) -> Path:
         return saved(folder, text(columns(motion, w=np.round(motion.w / unit))))
 
-    return Variant(name, write, Reads(rate=HALF_A_COUNT * unit, said="deg/s a count"))
+    return Variant(name, write, Reads(rate=HALF_A_COUNT * unit, said="deg/s per count"))
 
 
 mpu_6050_of_250_deg_s = counted("mpu_6050_of_250_deg_s", 1 / 131)
@@ -95,7 +95,7 @@ def _others(motion: Motion) -> dict[str, Floats]:
     return dict(zip(("ax_mg", "ay_mg", "az_mg"), pull.T, strict=True))
 
 
-@answered(Reads(rate=HALF_A_COUNT * DEG / 131, said="deg/s a count"))
+@answered(Reads(rate=HALF_A_COUNT * DEG / 131, said="deg/s per count"))
 def counts_beside_an_accelerometer(motion: Motion, folder: Path) -> Path:
     unit = DEG / 131
     table = columns(motion, w=np.round(motion.w / unit))
