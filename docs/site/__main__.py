@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+import jaxtyping  # noqa: F401  first: signatures then have the shapes of arrays
 from sphinx.cmd.build import main as build
 
 from docs.site.gathered import DOCS

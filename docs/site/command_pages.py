@@ -1,7 +1,9 @@
 """A page for each command, from the texts that `--help` shows."""
 
 import re
-from collections.abc import Iterator
+import sys
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 
 from equipoise.app.cli import GROUPS, app
 
@@ -32,12 +34,23 @@ def command_pages() -> Iterator[tuple[str, str]]:
 
 def _described() -> Iterator[tuple[str, str]]:
     """Yield name and page of each command."""
-    whole = app.generate_docs("markdown")
+    with _named_equipoise():
+        whole = app.generate_docs("markdown")
     places = list(HEADING.finditer(whole))
     ends = [*(place.start() for place in places[1:]), len(whole)]
     for place, end in zip(places, ends, strict=True):
         body = whole[place.end() : end].replace("**Parameters**:", "**Options**:")
         yield place[1], f"# equipoise {place[1]}\n{body.rstrip()}\n"
+
+
+@contextmanager
+def _named_equipoise() -> Generator[None]:
+    """Let this program have the name that usage lines are to have: cyclopts takes the running's."""
+    words, sys.argv = sys.argv, ["equipoise"]
+    try:
+        yield
+    finally:
+        sys.argv = words
 
 
 def _listed() -> Iterator[str]:
