@@ -12,6 +12,7 @@ extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
+    "docs.site.access",
     "docs.site.linked_names",
 ]
 exclude_patterns = ["decisions/0000-template.md"]
