@@ -27,7 +27,10 @@ def card_pages() -> Iterator[tuple[str, str]]:
     methods, laws = eq.methods(), eq.laws()
     method_cards = [(name, method_pairs(methods[name])) for name in methods]
     law_cards = [(name, law_pairs(laws[name])) for name in laws]
-    yield "reference/methods.md", _cards("Methods", "../methods.md", "`identify --method`", method_cards)
+    yield (
+        "reference/methods.md",
+        _cards("Methods", "../methods.md", "`identify --method`", method_cards),
+    )
     yield "reference/laws.md", _cards("Control laws", "../laws.md", "`balance --law`", law_cards)
     yield "reference/recording-files.md", "\n".join([COLUMNS, *_columns(), *_formats()])
 
