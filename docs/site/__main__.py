@@ -18,8 +18,7 @@ from docs.site.pages import write_pages
 def main(words: Sequence[str]) -> int:
     """Build the site into the folder that is named first."""
     if not words:
-        print("python -m docs.site FOLDER: name the folder to build into", file=sys.stderr)
-        return 2
+        sys.exit("python -m docs.site FOLDER: name the folder to build into")
     folder = Path(words[0])
     pages = folder.with_name(folder.name + "-pages")
     write_pages(pages)

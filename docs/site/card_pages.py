@@ -1,6 +1,6 @@
 """The cards of methods and laws, and the columns of a recording, each as a page of tables."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import equipoise as eq
 from docs.site.schema_tables import text
@@ -9,6 +9,15 @@ from equipoise.io.columns.device_columns import UNITS
 from equipoise.io.columns.native_columns import GROUPS, TIME
 from equipoise.io.recording.format_registry import FORMATS
 
+METHODS = """# Methods, one by one
+
+These are the values of `equipoise identify --method`. [Estimation methods](../methods.md) compares
+them.
+"""
+LAWS = """# Control laws, one by one
+
+These are the values of `equipoise balance --law`. [Control laws](../laws.md) compares them.
+"""
 COLUMNS = """# Recording files
 
 These are the columns of a recording in Equipoise's own names, in every format. A cell is blank
@@ -25,26 +34,19 @@ NAMED = {"mass": "mm"} | {device: unit for device, (unit, _) in UNITS.items()}
 def card_pages() -> Iterator[tuple[str, str]]:
     """Yield the pages by their paths in the site."""
     methods, laws = eq.methods(), eq.laws()
-    method_cards = [(name, method_pairs(methods[name])) for name in methods]
-    law_cards = [(name, law_pairs(laws[name])) for name in laws]
-    yield (
-        "reference/methods.md",
-        _cards("Methods", "../methods.md", "`identify --method`", method_cards),
-    )
-    yield "reference/laws.md", _cards("Control laws", "../laws.md", "`balance --law`", law_cards)
+    found = {name: method_pairs(methods[name]) for name in methods}
+    yield "reference/methods.md", "\n".join([METHODS, *_cards(found)])
+    found = {name: law_pairs(laws[name]) for name in laws}
+    yield "reference/laws.md", "\n".join([LAWS, *_cards(found)])
     yield "reference/recording-files.md", "\n".join([COLUMNS, *_columns(), *_formats()])
 
 
-def _cards(
-    title: str, guide: str, option: str, cards: Sequence[tuple[str, Sequence[tuple[str, str]]]]
-) -> str:
-    lines = [f"# {title}, one by one\n", f"All that {option} takes. [The guide]({guide}) compares "
-             "them.\n"]  # fmt: skip
-    for name, pairs in cards:
-        lines += [f"## `{name}`\n", "| property | value |", "|---|---|"]
-        lines += [f"| {key} | {text(value)} |" for key, value in pairs[1:]]
-        lines.append("")
-    return "\n".join(lines)
+def _cards(cards: Mapping[str, Sequence[tuple[str, str]]]) -> Iterator[str]:
+    """Yield a section for each card; its first pair is its name."""
+    for name, pairs in cards.items():
+        yield f"## `{name}`\n\n| property | value |\n|---|---|"
+        yield from (f"| {key} | {text(value)} |" for key, value in pairs[1:])
+        yield ""
 
 
 def _columns() -> Iterator[str]:

@@ -52,22 +52,18 @@ def _meaning(value: Schema) -> str:
 def kind(schema: Schema, whole: Schema) -> str:
     """Return what a key may hold, in words."""
     schema = resolved(schema, whole)
-    if "const" in schema:
-        return _literal(schema["const"])
-    if "enum" in schema:
-        return ", ".join(map(_literal, schema["enum"]))
-    for choice in ("anyOf", "oneOf"):
-        if choice in schema:
-            return " or ".join(dict.fromkeys(kind(each, whole) for each in schema[choice]))
+    if "const" in schema or "enum" in schema:
+        return ", ".join(map(_literal, schema.get("enum", [schema.get("const")])))
+    choices = [*schema.get("anyOf", ()), *schema.get("oneOf", ())]
+    if choices:
+        return " or ".join(dict.fromkeys(kind(each, whole) for each in choices))
     named = schema.get("type", "any")
-    if isinstance(named, list):
-        return " or ".join(named)
     if named == "array":
         return _array(schema, whole)
-    if named == "object" and not schema.get("properties"):
+    if named == "object":
         inner = schema.get("additionalProperties")
-        return f"table of {kind(inner, whole)}" if isinstance(inner, dict) else "table"
-    return f"{named}{_limits(schema)}"
+        return f"object of {kind(inner, whole)}" if isinstance(inner, dict) else "object"
+    return (named if isinstance(named, str) else " or ".join(named)) + _limits(schema)
 
 
 def _array(schema: Schema, whole: Schema) -> str:
