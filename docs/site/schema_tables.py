@@ -17,7 +17,7 @@ def sections(schema: Schema) -> Iterator[str]:
             yield f"{text(found.get('description', ''))}\n"
         keys = found.get("properties", {})
         yield from _table([
-            (f"`{key}`", kind(value, schema), _needed(key, found), _meaning(value))
+            (f"`{key}`", text(kind(value, schema)), _needed(key, found), _meaning(value))
             for key, value in keys.items()
         ])  # fmt: skip
         waiting += [
@@ -78,7 +78,7 @@ def _limits(schema: Schema) -> str:
     """Return the range of a number."""
     signs = (("exclusiveMinimum", ">"), ("minimum", ">="), ("exclusiveMaximum", "<"),
              ("maximum", "<="))  # fmt: skip
-    return "".join(f" {sign} {schema[name]:g}" for name, sign in signs if name in schema)
+    return ",".join(f" {sign} {schema[name]:g}" for name, sign in signs if name in schema)
 
 
 def _objects(schema: Schema, whole: Schema) -> Iterator[tuple[str, Schema]]:

@@ -85,7 +85,7 @@ def test_schemas_are_tables():
     found = "\n".join(sections(SCHEMA))
     assert "| `name` | string | yes | of a \\| b &lt;c> |" in found
     assert "| `parts` | array of object |  |  |" in found
-    assert "| `share` | number >= 0 &lt; 1 |  | default 0.5 |" in found
+    assert "| `share` | number >= 0, &lt; 1 |  | default 0.5 |" in found
     assert (
         "## `parts[]`\n\nA part.\n\n| key | type |\n| --- | --- |\n| `mass_kg` | number |" in found
     )
