@@ -47,5 +47,5 @@ def shown(picture: Picture) -> str:
     title = " ".join(picture.name.split("_")).capitalize()
     return (
         f"```{{figure}} {picture.name}.png\n:alt: {title}, described by the caption\n"
-        f":class: drawn\n\n{picture.caption}\n```\n"
+        f":figclass: drawn\n\n{picture.caption}\n```\n"
     )
