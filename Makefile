@@ -6,7 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 RUN := $(VENV)/.ready-to-run
 TEST := $(VENV)/.ready-to-test
-LINTED := src tests $(wildcard benchmarks verification)
+LINTED := src tests $(wildcard benchmarks verification) docs/conf.py docs/site
 UV := $(shell command -v uv 2>/dev/null)
 VENDOR := src/equipoise/app/dashboard/static/vendor
 VENDORED := $(VENDOR)/uPlot.min.css
@@ -17,7 +17,7 @@ PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
 SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench scale verify mutants lint format rooms wheel pins clean
+.PHONY: help demo test bench scale verify mutants lint format rooms docs wheel pins clean
 .DELETE_ON_ERROR:
 
 help:  ## list the targets
@@ -61,6 +61,10 @@ format: $(TEST)  ## put the code in the house format
 
 rooms: $(TEST)  ## draw the picture of the rooms in docs/architecture.md
 	@$(BIN)/python -m tests.support.rooms
+
+docs: $(TEST)  ## build the documentation in build/site, its gallery and notebooks included
+	@$(BIN)/python -m docs.site build/site -D nb_execution_mode=auto
+	@echo 'Open build/site/index.html.'
 
 # Kernels for this Python on every x86-64 processor since 2015 or so; others compile their own.
 wheel: $(TEST) $(VENDORED)  ## build a wheel in dist, with kernels compiled ahead

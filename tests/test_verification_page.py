@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from verification.document import page, section, sections_of
+from verification.document import claim_of, index_of, page, section, sections_of
 from verification.result import Result, Row
 
 ROOT = Path(__file__).parents[1]
@@ -26,11 +26,34 @@ def test_sections_come_back_as_they_were_written():
 def test_the_head_counts_the_numbers_of_all_sections():
     """Rows, not the words in them."""
     head = page([measured("one", True, False), measured("other", True)]).split("\n## ")[0]
-    assert head.endswith("3 numbers, 1 not as wanted.\n")
+    assert "3 numbers, 1 not as wanted.\n" in head
 
 
 def test_a_section_says_what_measures_it_again_and_when_it_was():
     assert measured("one", True).endswith("Command: `measure one` (12 s, 2026-01-02).")
+
+
+def test_the_index_has_each_section_with_its_claim_and_its_day():
+    page_ = page([measured("one", True), measured("other", False)])
+    head = page_.split("\n## ")[0].rstrip().splitlines()
+    assert head[-2:] == [
+        "| [one](#one) | It holds. | 0 of 1 | 2026-01-02 |",
+        "| [other](#other) | It holds. | 1 of 1 | 2026-01-02 |",
+    ]
+
+
+def test_a_long_claim_is_cut_behind_a_sentence():
+    """Behind one that has said something, and not behind an abbreviation."""
+    setting = f"Of 1.5 kg | at most.{' On platforms' * 6} of Silva et al. as they print it."
+    text = section(Result("one", f"{setting} More.", ()), "measure", 1.0, "2026-01-02")
+    assert claim_of(text) == setting
+    assert f"| {setting.replace('|', chr(92) + '|')} |" in index_of([text])
+
+
+def test_the_page_of_the_repository_has_its_index():
+    """So that one who edits the page by hand, or writes it with older code, is found."""
+    text = (ROOT / "docs/verification.md").read_text()
+    assert index_of(sections_of(text).values()) in text.split("\n## ")[0]
 
 
 def cited_sections() -> set[str]:

@@ -11,6 +11,9 @@ from rich.text import Text
 from equipoise import __version__
 from verification.result import Result, Row
 
+MEASURED = re.compile(r"^Command: .*, (\d{4}-\d{2}-\d{2})\)\.$", re.MULTILINE)
+# The sentences that it takes to say something; chosen: 80 letters.
+BEGINNING = re.compile(r".{80,}?(?<!al)[.:](?=\s|$)", re.DOTALL)
 HEADING = re.compile(r"^## (\w+)$", re.MULTILINE)
 PACKAGES = ("numpy", "scipy", "numba", "mujoco")
 
@@ -77,14 +80,43 @@ def sections_of(text: str) -> dict[str, str]:
     }
 
 
+def date_of(section: str) -> str:
+    """Return the day on which a section was measured, as its command line states it."""
+    return MEASURED.findall(section)[-1]
+
+
+def claim_of(section: str) -> str:
+    """Return what a section claims, of a long claim the first sentences."""
+    claim = section.split("\n\n")[1]
+    found = BEGINNING.match(claim)
+    return (found[0] if found else claim).rstrip(".:") + "."
+
+
+def missed_in(sections: str) -> tuple[int, int]:
+    """Return how many numbers of some sections are not as wanted, and how many there are."""
+    kept, missed = (sections.count(f"| {verdict} |\n") for verdict in ("yes", "NO"))
+    return missed, kept + missed
+
+
+def index_of(sections: Iterable[str]) -> str:
+    """Return the list of sections: claim, numbers that are not as wanted, day of measurement."""
+    rows = [
+        f"| [{name}](#{name}) | {cell(claim_of(text))} | "
+        f"{' of '.join(map(str, missed_in(text)))} | {date_of(text)} |"
+        for name, text in sections_of("\n\n".join(sections)).items()
+    ]
+    return "\n".join(["| section | claim | not as wanted | measured |", "|---|---|---|---|", *rows])
+
+
 def page(sections: Iterable[str]) -> str:
     """Return the whole page."""
+    sections = tuple(sections)
     body = "\n\n".join(sections)
-    found, missed = (body.count(f"| {verdict} |\n") for verdict in ("yes", "NO"))
+    missed, found = missed_in(body)
     head = (
         "# What was verified\n\nWritten by `make verify`; do not edit. Each section is one "
         "file of `verification/`, and says when it was measured. Tests in `tests/statistical` call "
         "the same functions with fewer seeds.\n\n"
-        f"{versions()}. {found + missed} numbers, {missed} not as wanted."
+        f"{versions()}. {found} numbers, {missed} not as wanted."
     )
-    return f"{head}\n\n{body}\n"
+    return f"{head}\n\n{index_of(sections)}\n\n{body}\n"

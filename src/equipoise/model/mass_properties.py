@@ -41,7 +41,7 @@ class MassProperties(Plotted):
         return float(np.trace(self.inertia_P)) / 3
 
     def swing_time(self, gravity: float) -> float:
-        """Return sqrt(J / m g |r|), s, with the mean moment: a swing's period over 2 pi."""
+        """Return ``sqrt(J / m g |r|)``, s, with the mean moment: a swing's period over 2 pi."""
         stiffness = self.mass * gravity * float(np.linalg.norm(self.com))
         return float(np.sqrt(abs(self.mean_moment) / max(stiffness, LEAST)))
 

@@ -1,0 +1,1 @@
+"""The documentation, and in `site` the program that makes the site of it."""

@@ -1,0 +1,1 @@
+"""The documentation's site: pages gathered, written from the code, drawn, and built."""
