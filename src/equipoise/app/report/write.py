@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+from equipoise.app.figures import charted
 from equipoise.app.figures.base.files import rendered
 from equipoise.app.report import logbook_entry
 from equipoise.app.report.build import report
@@ -36,11 +37,19 @@ def write_output(output: Output, folder: Path) -> list[Path]:
 
 def files_of(record: RunRecord) -> Files:
     """Return figures and report as files of a folder; without typst there is no PDF."""
-    drawings = {p.name: rendered(p.figure, "svg") for p in (*record.step_figures, *record.figures)}
+    drawings = drawings_of(record)
     figures = {place(name): drawing for name, drawing in drawings.items()}
     document = report(record)
     made = {DOCUMENT: text_of_document(document), **set_document(document, drawings)}
     return {**figures, **record.files, **made}
+
+
+def drawings_of(record: RunRecord) -> Drawings:
+    """Return every figure as SVG, and the still drawings of charts that have no figure."""
+    pictures = {p.name: p.figure for p in (*record.step_figures, *record.figures)}
+    charts = {chart.name: chart for chart in record.charts if chart.name not in pictures}
+    still = {name: charted.draw(chart) for name, chart in charts.items()}
+    return {name: rendered(figure, "svg") for name, figure in (pictures | still).items()}
 
 
 def set_document(document: Document, drawings: Drawings) -> Files:

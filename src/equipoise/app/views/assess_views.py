@@ -84,7 +84,7 @@ def record_of(reported: AssessedPlatform, courses: RecordCourses) -> RunRecord:
             *findings_section(reported.findings),
             steps_section("Steps", reported.steps, shown),
             Section("What the recording proves", tables_of(reported)),
-            *estimate_sections(done.estimate),
+            *estimate_sections(done.estimate, done.testbed),
         ),
         origin=origin(sha256=done.recording.sha256),
         figures=list(pictures_of(reported)),

@@ -90,7 +90,7 @@ def record_of(done: InTwoLevels, masses: Balancing, of: dict[str, str]) -> RunRe
         sections=(
             steps_section("Steps by hand", first.steps, by_hand),
             steps_section("Steps of the masses", masses.steps, by_masses),
-            *estimate_sections(masses.estimate),
+            *estimate_sections(masses.estimate, masses.testbed),
         ),
         origin=origin(**of),
         figures=pictures_of(done, masses, courses),

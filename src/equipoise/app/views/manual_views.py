@@ -87,7 +87,7 @@ def record_of(done: ByHand, of: dict[str, str], courses: RecordCourses) -> RunRe
         conclusion=(*conclusion(done), *change_blocks(balancing)),
         sections=(
             steps_section("Steps", balancing.steps, shown),
-            *estimate_sections(balancing.estimate),
+            *estimate_sections(balancing.estimate, bed),
         ),
         origin=origin(**of),
         figures=pictures_of(done),
