@@ -10,10 +10,11 @@ from equipoise.app.figures.balancing import balanced_com, displacements
 from equipoise.app.figures.balancing.story import Story
 from equipoise.app.figures.base.com_panels import SETTLED
 from equipoise.app.figures.base.strokes import around
-from equipoise.app.figures.base.style import AXES
+from equipoise.app.figures.base.style import AXES, BAND
 from equipoise.app.figures.catalogue import TrueCourse
 from equipoise.app.figures.estimate import com_course, moved_com, tracked_com, tracked_rate
 from equipoise.app.text.charts import Chart, Panel, Rows
+from equipoise.model.arrays import Series1
 from equipoise.model.estimate import COM, Course, Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.units import DEG, MM, UM
@@ -67,7 +68,7 @@ def of_balancing(
     shaded = shaded_times(recording)
     real = () if story.truth is None else (true_rows(story.truth),)
     panel = com_panel("centre of mass, masses as they stand", tracked.standing,
-                      *measured_rows(story), *real)  # fmt: skip
+                      wanted_rows(story, tracked.standing.t), *measured_rows(story), *real)  # fmt: skip
     yield Chart("figure14_balancing", balanced_com.CAPTION, (panel,), record=record, shaded=shaded)
     if recording.masses is not None and len(recording.masses):
         rows = rows_of(recording.mass_names, recording.masses.t, recording.masses.values, MM)
@@ -98,6 +99,14 @@ def measured_rows(story: Story) -> tuple[Rows, ...]:
 
 
 def true_rows(truth: TrueCourse) -> Rows:
-    """Return where the simulated centre of mass really was; it is unknown while masses move."""
+    """Return where the simulated centre of mass really was; unknown while masses move (NaN)."""
     t, com = truth
-    return rows_of([f"truth {axis}" for axis in AXES], t, com, UM, "dots")
+    mark = "line" if np.isnan(com).any() else "dots"
+    return rows_of([f"truth {axis}" for axis in AXES], t, com, UM, mark)
+
+
+def wanted_rows(story: Story, t: Series1) -> Rows:
+    """Return the target from the first to the last of some times, with its tolerance."""
+    target, tolerance = np.array([story.target] * 2), np.array([story.tolerance] * 2)
+    names = [f"target {axis}" for axis in AXES]
+    return banded(names, t[[0, -1]], target, tolerance / BAND, UM)

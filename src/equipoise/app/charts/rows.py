@@ -13,6 +13,7 @@ from equipoise.model.arrays import Floats, Series, Series1
 
 STRETCHES = 900  # of a record, chosen: more than a screen shows apart, few enough for a file
 GAP = 10.0  # times the median step, chosen: a line is broken there
+APART = 1e-6  # of the record, chosen: less than any zoom shows
 DIGITS = 6  # of a number, chosen: what a zoom of a thousand times shows
 
 
@@ -34,12 +35,20 @@ def banded(names: Sequence[str], t: Series1, values: Series, sd: Series, size: f
 def _drawn(
     t: Series1, every: list[Series], mark: Mark
 ) -> tuple[tuple[float, ...], list[tuple[Numbers, ...]]]:
+    t = _increasing(t)
     if mark == "line":
         t, every = _broken(t, every)
     x, kept = t, every
     if len(t) > 2 * STRETCHES:
         x, kept = _extremes(t, every)
-    return tuple(map(_short, x.tolist())), [tuple(map(_column, of.T)) for of in kept]
+    return tuple(float(f"{at:.9g}") for at in x.tolist()), [tuple(map(_column, of.T)) for of in kept]
+
+
+def _increasing(t: Series1) -> Series1:
+    """Return times in which those that are equal follow each other by a little."""
+    if len(t) < 2:
+        return t
+    return np.maximum.accumulate(t) + APART * (t[-1] - t[0]) * np.cumsum(np.diff(t, prepend=-np.inf) <= 0)
 
 
 def _broken(t: Series1, every: list[Series]) -> tuple[Series1, list[Series]]:

@@ -5,7 +5,7 @@ import numpy as np
 from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.strokes import course, dots, with_legend
 from equipoise.app.figures.base.style import GREY, PURPLE, SIX, WIDE, styled
-from equipoise.app.text.charts import Chart, Drawn, Numbers, Panel, Replay, Rows
+from equipoise.app.text.charts import Chart, Numbers, Panel, Rows
 from equipoise.app.text.numbers import typeset
 from equipoise.model.arrays import Floats
 
@@ -14,21 +14,9 @@ BAR = 0.27  # of a bin, chosen: three columns stand side by side
 AXIS_COLOURS = {"x": 0, "y": 2, "z": 4}  # of SIX: those of axes in all figures
 
 
-def draw(chart: Drawn) -> Figure:
-    """Return the figure: a panel below the other, or the attitude of a replay."""
-    return _draw_chart(chart if isinstance(chart, Chart) else attitude_chart(chart))
-
-
-def attitude_chart(replay: Replay) -> Chart:
-    """Return the attitude of a replay over time."""
-    columns = tuple(zip(*replay.attitude, strict=True))
-    rows = Rows(("q0", "q1", "q2", "q3"), replay.t, columns)
-    panel = Panel("attitude quaternion, body to laboratory, scalar first", "", (rows,))
-    return Chart(replay.name, replay.caption, (panel,))
-
-
 @styled
-def _draw_chart(chart: Chart) -> Figure:
+def draw(chart: Chart) -> Figure:
+    """Return the figure, a panel below the other."""
     figure = laid_out(WIDE, HEIGHT * len(chart.panels) + 0.7)
     column = figure.subplots(len(chart.panels), 1, sharex=True, squeeze=False)[:, 0]
     for axes, panel in zip(column, chart.panels, strict=True):

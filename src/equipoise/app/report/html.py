@@ -24,7 +24,7 @@ from equipoise.app.text.blocks import (
 )
 from equipoise.app.text.charts import Chart, Heatmap, Replay
 from equipoise.app.text.escaping import for_html
-from equipoise.app.text.still import correlation
+from equipoise.app.text.still import correlation, course_table
 
 Drawings = Mapping[str, bytes]  # SVG, by name
 PLAIN = ' !"$()*+,-./:;<=>?@[]^_`{|}~'  # letters of a data: address that stand for themselves
@@ -64,25 +64,21 @@ def _section(section: Section, drawings: Drawings) -> str:
 
 
 def _block(block: Block, drawings: Drawings) -> str:
-    if isinstance(block, Figure):
+    if isinstance(block, Figure | Chart):
         return _figure(block, drawings[block.name])
-    if isinstance(block, Chart | Replay):
-        return _live_figure(block, drawings[block.name])
     return _set(block)
 
 
-def _figure(figure: Figure, drawing: bytes) -> str:
-    caption = f"<figcaption>{for_html(figure.caption)}</figcaption>"
-    return f"<figure>{_drawn(figure.name, drawing)}{caption}</figure>"
+def _figure(block: Figure | Chart, drawing: bytes) -> str:
+    """Return a drawing; of a chart also the place for what a page with scripts shows instead."""
+    caption = f"<figcaption>{for_html(block.caption)}</figcaption>"
+    drawn = f"{_drawn(block.name, drawing)}{caption}</figure>"
+    return f"{_live(block)}{drawn}" if isinstance(block, Chart) else f"<figure>{drawn}"
 
 
-def _live_figure(block: Chart | Replay, drawing: bytes) -> str:
-    """Return a drawing, and the place for what a page with scripts shows instead."""
-    return (
-        f'<figure data-kind="{block.kind}" data-name="{for_html(block.name)}">'
-        f'<div class="live" hidden></div>{_drawn(block.name, drawing)}'
-        f"<figcaption>{for_html(block.caption)}</figcaption></figure>"
-    )
+def _live(block: Chart | Replay, hidden: str = "") -> str:
+    named = f'data-kind="{block.kind}" data-name="{for_html(block.name)}"'
+    return f'<figure {named}{hidden}><div class="live" hidden></div>'
 
 
 def _drawn(name: str, drawing: bytes) -> str:
@@ -128,6 +124,17 @@ def _(block: Pairs) -> str:
 def _(block: Moment) -> str:
     when, what = f"<time>{for_html(block.time)}</time>", f"<b>{for_html(block.what)}</b>"
     return f'<div class="moment">{when}{what}<span>{for_html(block.text)}</span></div>'
+
+
+@_set.register
+def _(block: Chart) -> str:
+    return _set(course_table(block))
+
+
+@_set.register
+def _(block: Replay) -> str:
+    """Return a place that scripts fill, and show."""
+    return f"{_live(block, ' hidden')}<figcaption>{for_html(block.caption)}</figcaption></figure>"
 
 
 @_set.register

@@ -12,6 +12,7 @@ from equipoise.app.report.pdf import can_set, pdf, png
 from equipoise.app.report.run_record import Output, RunRecord
 from equipoise.app.report.saved_report import DOCUMENT, saved_document, saved_drawing
 from equipoise.app.text.blocks import Document, printed, text_of_document
+from equipoise.app.text.charts import Chart
 from equipoise.app.text.json_document import dump
 from equipoise.io.documents.run_folder import announce
 from equipoise.io.files.atomic_file import write_folder
@@ -47,8 +48,8 @@ def files_of(record: RunRecord) -> Files:
 def drawings_of(record: RunRecord) -> Drawings:
     """Return every figure as SVG, and the still drawings of charts that have no figure."""
     pictures = {p.name: p.figure for p in (*record.step_figures, *record.figures)}
-    charts = {chart.name: chart for chart in record.charts if chart.name not in pictures}
-    still = {name: charted.draw(chart) for name, chart in charts.items()}
+    charts = (chart for chart in record.charts if isinstance(chart, Chart))
+    still = {c.name: charted.draw(c) for c in charts if c.name not in pictures}
     return {name: rendered(figure, "svg") for name, figure in (pictures | still).items()}
 
 

@@ -150,7 +150,7 @@ class Document:
     def figures(self) -> tuple[str, ...]:
         """Names of all figures, in their order."""
         blocks = (block for section in self.sections for block in section.blocks)
-        return tuple(block.name for block in blocks if isinstance(block, Figure | Chart | Replay))
+        return tuple(block.name for block in blocks if isinstance(block, Figure | Chart))
 
 
 def number(heading: str, unit: str = "") -> Column:

@@ -1,7 +1,7 @@
 """Blocks that a page shows to be used: lines over a common axis, a replay, correlations.
 
-Numbers stand in the unit that is shown. Each block has a still form: a drawing by its name, or a
-table. Terminal, PDF, print and pages without scripts show that.
+Numbers stand in the unit that is shown. Terminal, PDF, print and pages without scripts show the
+still form of a block: a chart's drawing by its name, correlations as a table, a replay not at all.
 """
 
 from dataclasses import dataclass
@@ -63,7 +63,7 @@ class MovingMass:
 class Replay:
     """A recorded motion with the estimated centre of mass and inertia. SI, body axes."""
 
-    name: str  # of its drawing
+    name: str
     caption: str
     record: str
     layout: str

@@ -1,5 +1,6 @@
 """The still form of blocks that a page shows to be used: drawings and tables."""
 
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from equipoise.app.text.blocks import Block, Column, Document, Figure, Table, number, table
@@ -12,15 +13,22 @@ WIDTH = 40  # letters of a course, chosen: beside its name in 80 columns
 
 
 def still(document: Document) -> Document:
-    """Return a document for media that do not move: drawings and tables in place of charts."""
-    sections = (replace(s, blocks=tuple(map(_still, s.blocks))) for s in document.sections)
+    """Return a document for media that do not move: drawings and tables in place of charts.
+
+    A replay has no still form and is left out.
+    """
+    sections = (replace(s, blocks=tuple(_still(s.blocks))) for s in document.sections)
     return replace(document, sections=tuple(sections))
 
 
-def _still(block: Block) -> Block:
-    if isinstance(block, Chart | Replay):
-        return Figure(block.name, block.caption)
-    return correlation_table(block) if isinstance(block, Heatmap) else block
+def _still(blocks: Iterable[Block]) -> Iterator[Block]:
+    for block in blocks:
+        if isinstance(block, Chart):
+            yield Figure(block.name, block.caption)
+        elif isinstance(block, Heatmap):
+            yield correlation_table(block)
+        elif not isinstance(block, Replay):
+            yield block
 
 
 def correlation_table(block: Heatmap) -> Table:

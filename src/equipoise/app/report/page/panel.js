@@ -12,6 +12,9 @@ const FONT = '11px system-ui, "DejaVu Sans", sans-serif';
 const BAND_ALPHA = "30"; // of 255 in hexadecimal, chosen: three bands on one another are visible
 const DOT_ALPHA = "80"; // chosen: a line of the same colour is visible on dots
 const HEIGHT = 210; // px
+const GAP_AS_IT_IS = 2; // uPlot's word for: unknown rows break a line up to its next known row
+const BARS = ["bars", "stems"];
+const ALONE = 5; // the colour of a line by itself, which is no axis
 const FEW = 300; // dots that are drawn larger; chosen: they do not touch
 
 export class Panel {
@@ -38,7 +41,7 @@ export class Panel {
     this.plotPlace.setAttribute("aria-label", `${panel.title} against ${chart.axis}`);
     this.plot = new uPlot(this.options(), this.data, this.plotPlace);
     this.pointer = new Pointer(this.plotPlace, this.plot, range);
-    range.join(this, this.data[0]);
+    range.join(this, reachOf(this.data[0], panel.rows));
     new ResizeObserver(() => this.fit()).observe(this.plotPlace);
     this.writeValues();
   }
@@ -53,7 +56,7 @@ export class Panel {
       legend: { show: false },
       cursor: { y: false, drag: { x: true, y: false, setScale: false }, sync, dataIdx: nearest },
       scales: { x: { time: false, auto: false }, y: { auto: false, range: (_, a, b) => [a, b] } },
-      axes: [this.axis(22, 64, (t) => [tick(t), this.chart.axis_unit].join(" ")), this.axis(58, 24, tick)],
+      axes: [this.abscissa(), this.axis(58, 24, tick)],
       series: [{}, ...this.columns.map((_, c) => this.line(c)),
         ...banded.flatMap(() => [{ points: { show: false } }, { points: { show: false } }])],
       bands: banded.map((column, b) => this.band(column, b)),
@@ -64,6 +67,13 @@ export class Panel {
         setSelect: [() => this.zoomToSelection()],
       },
     };
+  }
+
+  /** Seconds stand at each tick; another axis says below it what it is. */
+  abscissa() {
+    const { axis, axis_unit: unit } = this.chart;
+    if (unit === "s") return this.axis(22, 64, (t) => `${tick(t)} s`);
+    return { ...this.axis(22, 64, tick), label: `${axis}, ${unit}`, labelSize: 18, labelFont: FONT };
   }
 
   axis(size, space, text) {
@@ -138,10 +148,11 @@ export class Panel {
     const shown = this.columns.flatMap((_, c) =>
       this.hidden.has(c) ? [] : this.data[1 + c].filter((_, i) => t[i] >= from && t[i] <= to),
     );
-    const bars = this.panel.rows.some(({ mark }) => mark === "bars") ? [0] : [];
-    const [least, greatest] = extent([...shown, ...bars]);
-    if (!(least <= greatest)) return band ? [-band, band] : [0, 1];
-    return niceRange(least, greatest);
+    const bars = this.panel.rows.some(({ mark }) => mark === "bars");
+    const [least, greatest] = extent([...shown, ...(bars ? [0] : []), ...(band ? [-band, band] : [])]);
+    if (!(least <= greatest)) return [0, 1];
+    const [low, high] = niceRange(least, greatest);
+    return [bars && least >= 0 ? 0 : low, high]; // bars stand on the axis
   }
 
   mark(at) {
@@ -167,7 +178,7 @@ export class Panel {
   drawBars() {
     if (!this.colours) return;
     const barred = this.columns.map((column, c) => ({ ...column, c }))
-      .filter(({ rows, c }) => ["bars", "stems"].includes(rows.mark) && !this.hidden.has(c));
+      .filter(({ rows, c }) => BARS.includes(rows.mark) && !this.hidden.has(c));
     const many = barred.length;
     barred.forEach(({ rows, k, c }, i) =>
       drawStems(this.plot, rows.x, rows.columns[k], this.colour(c), (i - (many - 1) / 2) / (many + 0.5)),
@@ -187,15 +198,26 @@ export class Panel {
 
 /** Rows that share a name's axis share its colour; dashes tell lines apart, not dots from lines. */
 function stylesOf(rows) {
-  return rows.flatMap(({ names, mark }) =>
-    lineStyles(names).map((style) => (mark === "line" ? style : { ...style, dash: [] })),
-  );
+  const ofLines = lineStyles(rows.flatMap(({ names, mark }) => (mark === "line" ? names : [])));
+  return rows.flatMap(({ names, mark }) => {
+    if (names.length === 1) return [{ colour: ALONE, dash: [] }];
+    return mark === "line" ? ofLines.splice(0, names.length) : lineStyles(names).map(undashed);
+  });
+}
+
+const undashed = (style) => ({ ...style, dash: [] });
+
+/** From the first abscissa to the last; bars need half their place more. */
+function reachOf(x, rows) {
+  const half = rows.some(({ mark }) => BARS.includes(mark)) ? (x[1] - x[0]) / 2 : 0;
+  return [x[0] - half, x.at(-1) + half];
 }
 
 /** @returns {(number|null|undefined)[][]} abscissae, columns, and the edges of bands, for uPlot */
 function joined(rows) {
   const edges = rows.flatMap(({ x, low, high }) => low.map((column, k) => [x, column, high[k]]));
-  return uPlot.join([...rows.map(({ x, columns }) => [x, ...columns]), ...edges]);
+  const tables = [...rows.map(({ x, columns }) => [x, ...columns]), ...edges];
+  return uPlot.join(tables, tables.map((table) => table.map(() => GAP_AS_IT_IS)));
 }
 
 /** Where rows have times of their own, the nearest row of each. */

@@ -22,7 +22,7 @@ class Player {
     this.store = storeOf(block);
     this.view = showScene(make("div", "scene", live), this.store);
     this.addTools(make("div", "tools", live));
-    place.dataset.live = "true"; // the drawing stands on paper only
+    place.hidden = false;
     this.view.about?.();
     followTheme(() => this.recolour());
     this.place(this.at);
