@@ -1,7 +1,7 @@
 """The charts of an identification, a balancing and a demonstration."""
 
 from equipoise.app.charts.of_courses import of_balancing, of_course, of_move, of_tracking
-from equipoise.app.charts.of_fit import of_fit
+from equipoise.app.charts.of_fit import of_fit, residuals_of
 from equipoise.app.charts.of_motion import of_motion
 from equipoise.app.charts.of_residuals import of_residuals
 from equipoise.app.figures.balancing.story import Story
@@ -13,6 +13,7 @@ from equipoise.procedure.identification.record_courses import RecordCourses
 
 IDENTIFICATION = "identification"
 BALANCING = "balancing"
+ASSESSMENT = "assessment"
 
 
 def charts_of_estimate(
@@ -45,6 +46,17 @@ def _tracked(
     return (
         *of_tracking(recording, courses.tracked, IDENTIFICATION),
         *of_move(recording, courses.tracked, None, IDENTIFICATION),
+    )
+
+
+def charts_of_assessment(
+    recording: Recording, testbed: Testbed, estimate: Estimate
+) -> tuple[Drawn, ...]:
+    """Return replay, residuals of both sensors and their statistics."""
+    return (
+        *of_motion(recording, testbed, estimate, ASSESSMENT),
+        *residuals_of(recording, testbed, estimate.residual, ASSESSMENT),
+        *of_residuals(estimate.residual, testbed),
     )
 
 

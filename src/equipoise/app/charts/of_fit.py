@@ -39,19 +39,28 @@ def of_fit(
     if recording.attitude is not None:
         panels = attitude_panels(recording.attitude, motions)
         yield Chart("figure06_attitude", attitude_fit.CAPTION, panels, record=record, shaded=shaded)
-    camera = None if residual is None else residual.attitude
     gyro = None if residual is None else residual.rate
-    if camera is not None:
-        noise = None if testbed.attitude is None else testbed.attitude.noise
-        panel = residual_panel("camera residual", "deg", camera, noise)
-        yield Chart("figure07_residual", attitude_residual.CAPTION, (panel,), record=record,
-                    shaded=shaded)  # fmt: skip
     panel = rate_panel(recording.rate, gyro, motions.after)
     yield Chart("figure08_rate", rates.CAPTION, (panel,), record=record, shaded=shaded)
-    if gyro is not None:
-        noise = None if testbed.gyro is None else testbed.gyro.noise
-        panel = residual_panel("gyro residual", "deg/s", gyro, noise)
-        yield Chart("gyro_residual", GYRO_RESIDUAL, (panel,), record=record, shaded=shaded)
+    yield from residuals_of(recording, testbed, residual, record)
+
+
+def residuals_of(
+    recording: Recording, testbed: Testbed, residual: Residual | None, record: str
+) -> Iterator[Chart]:
+    """Yield the residuals of camera and gyro along a record."""
+    if residual is None:
+        return
+    shaded = shaded_times(recording)
+    sensors = (
+        ("figure07_residual", attitude_residual.CAPTION, "camera residual", "deg",
+         residual.attitude, testbed.attitude),
+        ("gyro_residual", GYRO_RESIDUAL, "gyro residual", "deg/s", residual.rate, testbed.gyro),
+    )  # fmt: skip
+    for name, caption, title, unit, left, sensor in sensors:
+        if left is not None and len(left):
+            panel = residual_panel(title, unit, left, None if sensor is None else sensor.noise)
+            yield Chart(name, caption, (panel,), record=record, shaded=shaded)
 
 
 def shaded_times(recording: Recording) -> tuple[tuple[float, float], ...]:

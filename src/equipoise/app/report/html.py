@@ -1,5 +1,6 @@
 """A document as one HTML file that needs no other."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import singledispatch
 from importlib.resources import files
@@ -28,6 +29,7 @@ from equipoise.app.text.still import correlation, course_table
 
 Drawings = Mapping[str, bytes]  # SVG, by name
 PLAIN = ' !"$()*+,-./:;<=>?@[]^_`{|}~'  # letters of a data: address that stand for themselves
+PATH, LONG = re.compile(rb' d="[^"]*"'), re.compile(rb"(\.\d\d)\d+")
 TEMPLATE = Template((files("equipoise.app.report") / "page.html").read_text(encoding="utf-8"))
 
 
@@ -82,8 +84,12 @@ def _live(block: Chart | Replay, hidden: str = "") -> str:
 
 
 def _drawn(name: str, drawing: bytes) -> str:
-    """Return an SVG as a picture: blanks in place of line ends, which addresses lose."""
-    data = quote(drawing.replace(b"\n", b" "), safe=PLAIN)
+    """Return an SVG as a picture, its paths to a hundredth of a point.
+
+    Addresses lose line ends: blanks stand in their place.
+    """
+    short = PATH.sub(lambda path: LONG.sub(rb"\1", path[0]), drawing)
+    data = quote(short.replace(b"\n", b" "), safe=PLAIN)
     return f"<img alt=\"{for_html(name)}\" src='data:image/svg+xml,{data}'>"
 
 

@@ -60,8 +60,16 @@ class MovingMass:
 
 
 @dataclass(frozen=True, slots=True)
+class Ellipsoid:
+    """The ellipsoid of even density with a body's inertia."""
+
+    semi_axes: Triple  # m
+    directions: tuple[Triple, Triple, Triple]  # of these, unit vectors in body axes
+
+
+@dataclass(frozen=True, slots=True)
 class Replay:
-    """A recorded motion with the estimated centre of mass and inertia. SI, body axes."""
+    """A recorded motion with centre of mass and inertia, where they are known. SI, body axes."""
 
     name: str
     caption: str
@@ -72,10 +80,9 @@ class Replay:
     attitude: tuple[tuple[float, float, float, float], ...]  # body to laboratory, scalar first
     masses: tuple[MovingMass, ...]
     displacements: tuple[tuple[float, ...], ...]  # a row a time, of each mass
-    com: Triple
-    com_covariance: tuple[float, ...]  # nine numbers by rows, m^2
-    semi_axes: Triple  # of the ellipsoid of even density with the body's inertia, m
-    directions: tuple[Triple, Triple, Triple]  # of these, unit vectors
+    com: Triple | None
+    com_covariance: tuple[float, ...]  # nine numbers by rows, m^2; empty: not known
+    ellipsoid: Ellipsoid | None
     kind: Literal["replay"] = "replay"
 
 
@@ -111,7 +118,8 @@ def fault_of(block: Chart | Replay | Heatmap) -> str:
     if isinstance(block, Replay):
         fits = len(block.t) == len(block.attitude) == len(block.displacements) > 0
         fits = fits and {len(row) for row in block.displacements} == {len(block.masses)}
-        return "" if fits and len(block.com_covariance) == 9 else "rows of unequal length"
+        known = len(block.com_covariance) == (0 if block.com is None else 9)
+        return "" if fits and known else "rows of unequal length"
     sizes = {len(block.values), *map(len, block.values)}
     return "" if sizes == {len(block.names)} else "a table that is not square"
 

@@ -35,21 +35,38 @@ def stated(testbed: Testbed) -> dict[str, Parameter]:
 
 
 def beside_testbed(shown: Table, estimate: Estimate, testbed: Testbed) -> Table:
-    """Return a table of parameters with two more columns; unchanged if it has none of the body."""
+    """Return a table of parameters with the testbed's values, and the differences if they are known.
+
+    A table without inertia and centre of mass comes back as it is.
+    """
     of_testbed = stated(testbed)
-    if not any(row.cells[0] in of_testbed for row in shown.rows):
+    others = [of_testbed.get(row.cells[0]) for row in shown.rows]
+    if not any(others):
         return shown
-    rows = tuple(_with_stated(row, estimate, of_testbed.get(row.cells[0])) for row in shown.rows)
-    return replace(shown, columns=(*shown.columns, *COLUMNS), rows=rows, notes=(*shown.notes, NOTE))
+    differences = [_difference(estimate, other) for other in others]
+    count = 2 if any(map(math.isfinite, differences)) else 1
+    rows = (
+        _with_stated(row, other, difference, count)
+        for row, other, difference in zip(shown.rows, others, differences, strict=True)
+    )
+    notes = (*shown.notes, *((NOTE,) if count == 2 else ()))
+    columns = (*shown.columns, *COLUMNS[:count])
+    return replace(shown, columns=columns, rows=tuple(rows), notes=notes)
 
 
-def _with_stated(row: Row, estimate: Estimate, other: Parameter | None) -> Row:
+def _difference(estimate: Estimate, other: Parameter | None) -> float:
+    """Return how far an estimated parameter is from the testbed's, in sd; NaN: not known."""
     if other is None:
-        return replace(row, cells=(*row.cells, "", ""))
+        return math.nan
     parameter = estimate.parameters[estimate.index(other.name)]
-    unit = unit_for(other.name, other.unit)
-    difference = normalised_difference(parameter, other)
-    known = math.isfinite(difference) and math.isfinite(parameter.sd)
-    text = fixed(difference, 1) if known else ""
+    return normalised_difference(parameter, other) if math.isfinite(parameter.sd) else math.nan
+
+
+def _with_stated(row: Row, other: Parameter | None, difference: float, count: int) -> Row:
+    if other is None:
+        return replace(row, cells=(*row.cells, *[""] * count))
+    value = significant(other.value / unit_for(other.name, other.unit).size, 4)
+    known = math.isfinite(difference)
+    cells = (value, fixed(difference, 1) if known else "")[:count]
     tone = "caution" if known and abs(difference) > DIFFERENT else row.tone
-    return Row((*row.cells, significant(other.value / unit.size, 4), text), tone)
+    return Row((*row.cells, *cells), tone)

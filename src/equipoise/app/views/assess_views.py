@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from equipoise.app.charts.catalogue import charts_of_assessment
+from equipoise.app.charts.of_correlation import correlations_of
 from equipoise.app.figures.balancing import com_over_hours, residual_torque, torque_in_range
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.recording import swing_spectrum
@@ -84,11 +86,12 @@ def record_of(reported: AssessedPlatform, courses: RecordCourses) -> RunRecord:
             *findings_section(reported.findings),
             steps_section("Steps", reported.steps, shown),
             Section("What the recording proves", tables_of(reported)),
-            *estimate_sections(done.estimate, done.testbed),
+            *estimate_sections(done.estimate, done.testbed, *correlations_of(done.estimate)),
         ),
         origin=origin(sha256=done.recording.sha256),
         figures=list(pictures_of(reported)),
         step_figures=tuple(shown.values()),
+        charts=charts_of_assessment(done.recording, done.testbed, done.estimate),
     )
 
 

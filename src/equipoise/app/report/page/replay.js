@@ -20,7 +20,9 @@ class Player {
     const live = place.querySelector(".live");
     live.hidden = false;
     this.store = storeOf(block);
-    this.view = showScene(make("div", "scene", live), this.store);
+    const scene = make("div", "scene", live);
+    scene.addEventListener("wheel", letPageScroll, { capture: true });
+    this.view = showScene(scene, this.store);
     this.addTools(make("div", "tools", live));
     place.hidden = false;
     this.view.about?.();
@@ -77,8 +79,13 @@ class Player {
 
   recolour() {
     this.view.recolour?.();
-    if (this.view.platform) this.view.platform.group.add(ellipsoid(this.block));
+    if (this.view.platform && this.block.ellipsoid) this.view.platform.group.add(ellipsoid(this.block));
   }
+}
+
+/** The wheel zooms with Ctrl, as it does over charts. */
+function letPageScroll(event) {
+  if (!event.ctrlKey) event.stopPropagation();
 }
 
 /** What the scene reads: the geometry, the newest rows, the estimate. */
@@ -92,7 +99,7 @@ function storeOf(block) {
   return {
     about,
     at: 0,
-    state: { estimate: { com: block.com, covariance: block.com_covariance } },
+    state: { estimate: block.com && { com: block.com, covariance: block.com_covariance } },
     last(name) {
       return rows[name]?.(this.at) ?? null;
     },
@@ -100,7 +107,7 @@ function storeOf(block) {
 }
 
 /** The ellipsoid of even density with the body's inertia, true to scale about the centre of mass. */
-function ellipsoid({ semi_axes, directions, com }) {
+function ellipsoid({ ellipsoid: { semi_axes, directions }, com }) {
   const mesh = solid(new SphereGeometry(1, 32, 20), palette().lines[4], OPACITY);
   const basis = directions.map((direction) => new Vector3(...direction));
   if (new Matrix4().makeBasis(...basis).determinant() < 0) basis[2].negate();
