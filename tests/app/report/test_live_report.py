@@ -71,11 +71,17 @@ class Opened:
         )
 
 
+@pytest.fixture(scope="module")
+def page_once(chromium, report):
+    return Opened(chromium, report).wait_until_live()
+
+
 @pytest.fixture
-def opened(chromium, report):
-    there = Opened(chromium, report).wait_until_live()
-    yield there
-    there.page.close()
+def opened(page_once):
+    """Return the page with the whole record shown."""
+    page_once.page.emulate_media(media="screen")
+    page_once.page.evaluate("equipoiseReport.figures.forEach(({ range }) => range.showWhole())")
+    return page_once
 
 
 @needs_chromium

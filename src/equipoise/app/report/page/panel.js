@@ -47,7 +47,7 @@ export class Panel {
   }
 
   options() {
-    const sync = { key: this.chart.record || this.chart.name, scales: ["x", null] };
+    const sync = { key: this.chart.record || this.chart.name, scales: ["x", null], filters: { pub: isMove, sub: isMove } };
     const banded = this.columns.filter(({ rows }) => rows.low.length);
     return {
       width: 600, // until it is fitted
@@ -219,6 +219,9 @@ function joined(rows) {
   const tables = [...rows.map(({ x, columns }) => [x, ...columns]), ...edges];
   return uPlot.join(tables, tables.map((table) => table.map(() => GAP_AS_IT_IS)));
 }
+
+/** Charts share the cursor alone; what is selected in one is its own. */
+const isMove = (type) => type === "mousemove" || type === "mouseleave";
 
 /** Where rows have times of their own, the nearest row of each. */
 function nearest(plot, s, idx) {
