@@ -1,7 +1,9 @@
 """The report in Debian's Chromium, opened from its file: charts, replay, themes, paper."""
 
+import os
 import re
 import shutil
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -13,7 +15,9 @@ from equipoise.app.report import scripts
 from equipoise.app.report.write import set_again
 from tests.support.dashboard_program import CHROMIUM, browser
 
-needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
+needs_chromium = pytest.mark.skipif(
+    CHROMIUM is None, reason="no chromium: apt-get install chromium"
+)
 LARGEST = 3_000_000  # bytes
 SIZES = ((1280, 720), (768, 1024), (390, 844))
 THEMES = ("light", "dark")
@@ -220,9 +224,12 @@ def test_it_fits_every_screen_and_keeps_nobody_out(chromium, report, tmp_path, s
     page = there.page
     expect(page.locator("html")).to_have_attribute("data-theme", theme)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    page.screenshot(path=tmp_path / f"{width}x{height}-{theme}.png", full_page=True)
+    kept = Path(os.environ.get("EQUIPOISE_SCREENSHOTS", tmp_path))
+    page.screenshot(path=kept / f"report-{width}x{height}-{theme}.png", full_page=True)
     found = Axe().run(page).response["violations"]
-    assert [(each["id"], each["nodes"][0]["html"]) for each in found if each["impact"] in GRAVE] == []
+    assert [
+        (each["id"], each["nodes"][0]["html"]) for each in found if each["impact"] in GRAVE
+    ] == []
     page.close()
 
 
@@ -249,4 +256,4 @@ def test_tables_have_captions_and_scopes_and_headings_are_in_order(report):
     assert '<th scope="col" class="right">testbed file</th>' in page
     levels = [int(level) for level in re.findall(r"<h(\d)>", page)]
     assert levels[0] == 1
-    assert all(after <= before + 1 for before, after in zip(levels, levels[1:], strict=False))
+    assert all(after <= before + 1 for before, after in pairwise(levels))

@@ -74,7 +74,9 @@ SAMPLES = {
                (MovingMass(f"mass {ODD}", UP, UP, (0.0, 1.0)),), ((0.1,),), UP, (1.0,) * 9,
                Ellipsoid(UP, (UP, UP, UP)))
     ],
-    Heatmap: [Heatmap(f"Title {ODD}", ("a", f"b {ODD}"), ((1.0, -0.5), (None, 1.0)), f"Note {ODD}")],
+    Heatmap: [
+        Heatmap(f"Title {ODD}", ("a", f"b {ODD}"), ((1.0, -0.5), (None, 1.0)), f"Note {ODD}")
+    ],
 }  # fmt: skip
 EVERY = tuple(block for blocks in SAMPLES.values() for block in blocks)
 
@@ -143,7 +145,7 @@ RENDERERS = {"terminal": in_terminal, "html": in_html, "pdf": in_pdf}
 
 
 def hidden_texts(block, renderer):
-    """Return the texts of a block that a renderer does not set: names, and what it draws or omits."""
+    """Return the texts of a block that a renderer draws or leaves out."""
     if renderer == "terminal":
         return ()
     if isinstance(block, Figure):

@@ -38,9 +38,7 @@ def charts_of_fit(
     return (*fit, *of_residuals(residual, testbed))
 
 
-def _tracked(
-    recording: Recording, estimate: Estimate, courses: RecordCourses
-) -> tuple[Drawn, ...]:
+def _tracked(recording: Recording, estimate: Estimate, courses: RecordCourses) -> tuple[Drawn, ...]:
     if courses.tracked is None:
         return tuple(of_course(recording, estimate, IDENTIFICATION))
     return (

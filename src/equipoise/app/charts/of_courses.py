@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from equipoise.app.charts.of_fit import shaded_times
-from equipoise.app.charts.rows import banded, rows_of
+from equipoise.app.charts.rows import banded, rows_of, straight
 from equipoise.app.figures.balancing import balanced_com, displacements
 from equipoise.app.figures.balancing.story import Story
 from equipoise.app.figures.base.com_panels import SETTLED
@@ -67,11 +67,11 @@ def of_balancing(
     """Yield the centre of mass and the masses on the way to balance."""
     shaded = shaded_times(recording)
     real = () if story.truth is None else (true_rows(story.truth),)
-    panel = com_panel("centre of mass, masses as they stand", tracked.standing,
-                      wanted_rows(story, tracked.standing.t), *measured_rows(story), *real)  # fmt: skip
+    beside = (wanted_rows(story, tracked.standing.t), *measured_rows(story), *real)
+    panel = com_panel("centre of mass, masses as they stand", tracked.standing, *beside)
     yield Chart("figure14_balancing", balanced_com.CAPTION, (panel,), record=record, shaded=shaded)
     if recording.masses is not None and len(recording.masses):
-        rows = rows_of(recording.mass_names, recording.masses.t, recording.masses.values, MM)
+        rows = straight(recording.mass_names, recording.masses.t, recording.masses.values, MM)
         moved = Panel("displacement from home", "mm", (rows,))
         yield Chart("figure15_displacements", displacements.CAPTION, (moved,), record=record)
 
@@ -101,8 +101,9 @@ def measured_rows(story: Story) -> tuple[Rows, ...]:
 def true_rows(truth: TrueCourse) -> Rows:
     """Return where the simulated centre of mass really was; unknown while masses move (NaN)."""
     t, com = truth
-    mark = "line" if np.isnan(com).any() else "dots"
-    return rows_of([f"truth {axis}" for axis in AXES], t, com, UM, mark)
+    names = [f"truth {axis}" for axis in AXES]
+    along = np.isnan(com).any()
+    return straight(names, t, com, UM) if along else rows_of(names, t, com, UM, "dots")
 
 
 def wanted_rows(story: Story, t: Series1) -> Rows:

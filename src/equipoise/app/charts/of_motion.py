@@ -42,9 +42,7 @@ def of_motion(
         triple(testbed.up),
         tuple(np.round(rows.t, 4).tolist()),
         tuple(map(_four, rows.values)),
-        tuple(
-            MovingMass(m.name, triple(m.home), triple(m.axis), m.travel) for m in testbed.masses
-        ),
+        tuple(MovingMass(m.name, triple(m.home), triple(m.axis), m.travel) for m in testbed.masses),
         tuple(map(tuple, at.tolist())),
         None if known is None else triple(known.com),
         () if known is None else tuple(known.covariance_of(COM).ravel().tolist()),

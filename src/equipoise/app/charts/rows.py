@@ -4,6 +4,7 @@ Of a long record each stretch of time keeps its least and its greatest, so that 
 """
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,34 +22,41 @@ def rows_of(
     names: Sequence[str], t: Series1, values: Series, size: float, mark: Mark = "line"
 ) -> Rows:
     """Return columns (n, k) SI over t; ``size`` is the unit's."""
-    x, (columns,) = _drawn(t, [values / size], mark)
+    t, every = _increasing(t), [values / size]
+    if mark == "line":
+        t, every = _broken(t, every)
+    x, (columns,) = _few(t, every)
     return Rows(tuple(names), x, columns, mark=mark)
+
+
+def straight(names: Sequence[str], t: Series1, values: Series, size: float) -> Rows:
+    """Return columns (n, k) SI that are straight between rows, however far apart these are."""
+    x, (columns,) = _few(_increasing(t), [values / size])
+    return Rows(tuple(names), x, columns)
 
 
 def banded(names: Sequence[str], t: Series1, values: Series, sd: Series, size: float) -> Rows:
     """Return the same with bands of two sd."""
     low, high = (values - BAND * sd) / size, (values + BAND * sd) / size
-    x, (columns, lows, highs) = _drawn(t, [values / size, low, high], "line")
+    t, every = _broken(_increasing(t), [values / size, low, high])
+    x, (columns, lows, highs) = _few(t, every)
     return Rows(tuple(names), x, columns, lows, highs)
 
 
-def _drawn(
-    t: Series1, every: list[Series], mark: Mark
-) -> tuple[tuple[float, ...], list[tuple[Numbers, ...]]]:
-    t = _increasing(t)
-    if mark == "line":
-        t, every = _broken(t, every)
-    x, kept = t, every
+def _few(t: Series1, every: list[Series]) -> tuple[tuple[float, ...], list[tuple[Numbers, ...]]]:
+    """Return abscissae and columns, no more of them than are drawn."""
     if len(t) > 2 * STRETCHES:
-        x, kept = _extremes(t, every)
-    return tuple(float(f"{at:.9g}") for at in x.tolist()), [tuple(map(_column, of.T)) for of in kept]
+        t, every = _extremes(t, every)
+    x = tuple(float(f"{at:.9g}") for at in t.tolist())
+    return x, [tuple(map(_column, of.T)) for of in every]
 
 
 def _increasing(t: Series1) -> Series1:
     """Return times in which those that are equal follow each other by a little."""
     if len(t) < 2:
         return t
-    return np.maximum.accumulate(t) + APART * (t[-1] - t[0]) * np.cumsum(np.diff(t, prepend=-np.inf) <= 0)
+    ties = np.cumsum(np.diff(t, prepend=-np.inf) <= 0)
+    return t + APART * (t[-1] - t[0]) * ties
 
 
 def _broken(t: Series1, every: list[Series]) -> tuple[Series1, list[Series]]:
@@ -65,7 +73,7 @@ def _extremes(t: Series1, every: list[Series]) -> tuple[Series1, list[Series]]:
     gaps = np.flatnonzero(np.isnan(every[0]).all(axis=1))  # by themselves, so that they stay
     even = np.linspace(0, len(t), STRETCHES + 1).astype(np.int64)
     edges = np.unique(np.concatenate([even, gaps, gaps + 1]))
-    of_stretch = [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    of_stretch = [slice(a, b) for a, b in pairwise(edges)]
     x = np.concatenate([[t[s][0], t[s][-1]] for s in of_stretch])
     return x, [np.vstack([_least_and_greatest(of[s]) for s in of_stretch]) for of in every]
 

@@ -8,7 +8,6 @@ from equipoise.app.text.charts import Chart, Heatmap, Replay
 from equipoise.app.text.numbers import fixed
 from equipoise.app.text.sparkline import BLOCKS, above_least
 
-
 WIDTH = 40  # letters of a course, chosen: beside its name in 80 columns
 
 
@@ -48,7 +47,11 @@ def correlation(value: float | None) -> str:
 
 def course_table(block: Chart, letters: str = BLOCKS) -> Table:
     """Return a line of letters for each column of a chart, from its least to its greatest."""
-    columns = (Column(), Column("unit"), Column(", ".join(filter(None, (block.axis, block.axis_unit)))))
+    columns = (
+        Column(),
+        Column("unit"),
+        Column(", ".join(filter(None, (block.axis, block.axis_unit)))),
+    )
     rows = (
         (f"{panel.title}: {name}", panel.unit, above_least(column, WIDTH, letters))
         for panel in block.panels

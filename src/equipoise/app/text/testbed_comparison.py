@@ -35,7 +35,7 @@ def stated(testbed: Testbed) -> dict[str, Parameter]:
 
 
 def beside_testbed(shown: Table, estimate: Estimate, testbed: Testbed) -> Table:
-    """Return a table of parameters with the testbed's values, and the differences if they are known.
+    """Return a table of parameters with the testbed's values, and differences if they are known.
 
     A table without inertia and centre of mass comes back as it is.
     """
