@@ -82,8 +82,8 @@ def _least_and_greatest(part: Floats) -> Floats:
     """Return (2, k): the least and the greatest of columns, whichever comes first above."""
     known = np.where(np.isnan(part), np.inf, part), np.where(np.isnan(part), -np.inf, part)
     low, high = np.argmin(known[0], axis=0), np.argmax(known[1], axis=0)
-    columns = np.arange(part.shape[1])
-    return np.array([part[np.minimum(low, high), columns], part[np.maximum(low, high), columns]])
+    rows = np.sort([low, high], axis=0)
+    return np.take_along_axis(part, rows, axis=0)
 
 
 def _column(values: Floats) -> Numbers:
