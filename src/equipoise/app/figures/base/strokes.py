@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
-from equipoise.app.figures.base.style import BAND, WIDE
+from equipoise.app.figures.base.style import BAND, SEVERAL, WIDE
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.recording import Recording, Samples, runs
 from equipoise.model.units import UM
@@ -43,6 +43,13 @@ def line(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> No
         gap = np.flatnonzero(np.diff(t) > 10 * np.median(np.diff(t)))
         t, y = np.insert(t, gap + 1, t[gap]), np.insert(y, gap + 1, np.nan)
     axes.plot(t, y, color=colour, label=label or None)
+
+
+def line_of_several(axes: Axes, k: int, t: Series1, y: Series1, label: str) -> None:
+    """Draw the k-th of several lines of a panel; each has dashes of its own beside its colour."""
+    colour, dashes = SEVERAL[k % len(SEVERAL)]
+    line(axes, t, y, colour, label)
+    axes.lines[-1].set_linestyle(dashes)
 
 
 def course(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:

@@ -12,6 +12,10 @@ BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", 
 SKY, AMBER = "#56B4E9", "#E69F00"
 XYZ = (BLUE, ORANGE, GREEN)
 SIX = (BLUE, SKY, ORANGE, AMBER, GREEN, PURPLE)  # masses, mostly two along each axis
+# Lines of one panel: a print in grey shows the dashes alone.
+SEVERAL: Any = (
+    (BLUE, "-"), (ORANGE, (0, (5, 1.2))), (GREEN, (0, (5, 1.2, 1, 1.2))), (PURPLE, (0, (1, 1))),
+)  # fmt: skip
 AXES = ("x", "y", "z")
 BAND = 2.0  # sd on either side of a line
 WIDE = 6.6  # inches
