@@ -51,14 +51,14 @@ def _reported(step: Step, frame: Frame, before: Mark | None) -> tuple[str, Figur
     recording, estimated, testbed = step.recording, _estimated(step, frame), frame.testbed
     if step.kind == "measurement" and recording is not None:
         return measurement.CAPTION, measurement.draw(recording, testbed.up)
-    if recording is not None and step.estimate is not None:
+    if step.kind == "estimate" and recording is not None and step.estimate is not None:
         found = _residuals(recording, step.estimate, testbed)
         if found is not None:
             return found
     if estimated is None:
         return None
     marks = [mark for mark in (before, estimated) if mark is not None]
-    return step_com.caption(frame.at_home, frame.wanted), step_com.draw(marks, frame.wanted)
+    return step_com.caption(frame.at_home, marks, frame.wanted), step_com.draw(marks, frame.wanted)
 
 
 def _residuals(

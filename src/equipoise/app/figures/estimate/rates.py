@@ -27,7 +27,7 @@ def caption(fitted: FittedMotion) -> str:
 @styled
 def draw(recording: Recording, fitted: FittedMotion) -> Figure:
     """Return the figure."""
-    figure, column = panels(3, height=1.1)
+    figure, column = panels(3, height=0.95)
     gyro, rate = fitted.gyro, fitted.rate
     for i, axes in enumerate(column):
         if gyro is not None:

@@ -12,10 +12,10 @@ from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
 from equipoise.procedure.identification.fitted_motion import ResidualSeries
 
-HIGH = 3.9  # inches, chosen: two such figures fit on a page
+HIGH = 3.5  # inches, chosen: two such figures fit on a page
 WIDTHS = (3.4, 0.8, 1.5)  # of rows, distribution and correlation, chosen
 TITLES = ("residuals", "density", "autocorrelation")
-BARS = 25  # of a histogram, chosen
+BARS = 25  # of a histogram at most, chosen
 SPREAD = (
     " Grey band: two standard deviations of the stated noise; grey strips: masses move. Middle: "
     "distribution, and the normal distribution of the stated noise (line). Right: autocorrelation, "
@@ -81,7 +81,8 @@ def _rows(axes: Axes, left: ResidualSeries, i: int) -> None:
 
 def _distribution(axes: Axes, values: Series1, noise: float | None, i: int) -> None:
     """Draw how the residuals of one axis are distributed, and as what the noise is stated."""
-    axes.hist(values, BARS, density=True, orientation="horizontal", color=XYZ[i], alpha=0.55)
+    bars = min(BARS, round(2.0 * len(values) ** (1 / 3)))  # the Rice rule
+    axes.hist(values, bars, density=True, orientation="horizontal", color=XYZ[i], alpha=0.55)
     if noise is not None:
         sd = noise / DEG
         y = np.linspace(-4 * sd, 4 * sd, 81)
