@@ -32,7 +32,6 @@ from equipoise.model.estimate import COM, Estimate
 from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
 from equipoise.model.units import UM
 from equipoise.procedure.identification.assess import Assessment
-from equipoise.procedure.identification.record_courses import RecordCourses
 
 
 def output_of(reported: AssessedPlatform) -> Output:
@@ -41,7 +40,7 @@ def output_of(reported: AssessedPlatform) -> Output:
         "assess",
         document(reported),
         blocks(reported),
-        lambda: record_of(reported, reported.courses()),
+        lambda: record_of(reported),
     )
 
 
@@ -73,10 +72,10 @@ def _last_word(reported: AssessedPlatform) -> Claim:
     return Claim(reported.steps[-1].sentence) if verdict is None else verdict_claim(verdict)
 
 
-def record_of(reported: AssessedPlatform, courses: RecordCourses) -> RunRecord:
+def record_of(reported: AssessedPlatform) -> RunRecord:
     """Return the assessment as a report."""
     done = reported.done
-    shown = pictures_of_steps(reported.steps, Frame(done.testbed, motions=courses.steps))
+    shown = pictures_of_steps(reported.steps, Frame(done.testbed))
     return RunRecord(
         title="Assessment",
         requested=requested(reported),

@@ -70,9 +70,7 @@ def logged_of(done: Balancing) -> Logged:
 
 def record_of(done: Balancing, courses: RecordCourses) -> RunRecord:
     """Return the run as a report."""
-    shown = pictures_of_steps(
-        done.steps, Frame(done.testbed, wanted(done.goal), motions=courses.steps)
-    )
+    shown = pictures_of_steps(done.steps, Frame(done.testbed, wanted(done.goal)))
     return RunRecord(
         title="Balancing",
         requested=requested(done),

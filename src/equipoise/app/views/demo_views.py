@@ -28,7 +28,7 @@ def output_of(shown: Demonstration) -> Output:
 
 def record_of(shown: Demonstration, courses: DemoCourses) -> RunRecord:
     """Return the report."""
-    figures = _figures_of_steps(shown, courses)
+    figures = _figures_of_steps(shown)
     return replace(
         balance_views.record_of(shown.balancing, courses.balanced),
         title="From unknown and unbalanced to identified, balanced and verified",
@@ -60,20 +60,19 @@ def charts(shown: Demonstration, courses: DemoCourses) -> tuple[Drawn, ...]:
     )
 
 
-def _figures_of_steps(shown: Demonstration, courses: DemoCourses) -> Mapping[Step, Picture]:
+def _figures_of_steps(shown: Demonstration) -> Mapping[Step, Picture]:
     bed, first = shown.balancing.testbed, len(shown.identified) + 1
-    identified = Frame(bed, at_home=True, motions=courses.identified.steps)
-    balanced = Frame(bed, balance_views.wanted(GOAL), motions=courses.balanced.steps)
+    balanced = Frame(bed, balance_views.wanted(GOAL))
     return {
-        **pictures_of_steps(shown.identified, identified),
+        **pictures_of_steps(shown.identified, Frame(bed, at_home=True)),
         **pictures_of_steps(shown.balancing.steps, balanced, first),
     }
 
 
 def pictures(shown: Demonstration, courses: DemoCourses) -> list[Picture]:
     """Return figures 6, 7, 8, 11, 12, 13, 14 and 15."""
-    bed, recording, along = shown.balancing.testbed, shown.recording, courses.identified
-    fit = () if along.fit is None else of_fit(recording, bed, along.fit)
+    recording, along = shown.recording, courses.identified
+    fit = () if along.fit is None else of_fit(recording, along.fit)
     moved = () if along.tracked is None else of_move(recording, along.tracked, shown.truth)
     return [
         *fit,

@@ -59,7 +59,7 @@ def logged_of(done: Identification, is_file: bool = True) -> Logged:
 
 def record_of(done: Identification, courses: RecordCourses) -> RunRecord:
     """Return the identification as a report."""
-    shown = pictures_of_steps(done.steps, Frame(done.testbed, at_home=True, motions=courses.steps))
+    shown = pictures_of_steps(done.steps, Frame(done.testbed, at_home=True))
     return RunRecord(
         title="Mass properties from a recording",
         requested={"recording": done.recording.source, "method": done.estimate.method},
@@ -76,7 +76,7 @@ def record_of(done: Identification, courses: RecordCourses) -> RunRecord:
             ),
         ),
         origin=origin(sha256=done.recording.sha256),
-        figures=list(of_estimate(done.recording, done.testbed, done.estimate, courses)),
+        figures=list(of_estimate(done.recording, done.estimate, courses)),
         step_figures=tuple(shown.values()),
         charts=charts_of_estimate(done.recording, done.testbed, done.estimate, courses),
     )

@@ -20,7 +20,7 @@ def draw(hours: OverHours, wander: Wander) -> Figure:
     """Return the figure."""
     from matplotlib.ticker import NullLocator, StrMethodFormatter
 
-    figure = laid_out(WIDE, 5.4)
+    figure = laid_out(WIDE, 3.7)
     grid = figure.subplot_mosaic([["x", "allan"], ["y", "allan"], ["z", "allan"]])
     for i, name in enumerate(AXES):
         axes = grid[name]

@@ -20,7 +20,7 @@ CAPTION_OF_BALANCING = (
     "the verdict of each run (dots): median, quartiles, whiskers within 1.5 "
     "interquartile ranges. Dashed: target, where it lies within the panel."
 )
-HIGH = 2.0  # inches of a row, chosen
+HIGH = 1.3  # inches of a row, chosen
 ROWS = (COM, INERTIA[:3], INERTIA[3:])
 BOX, JOINT = 0.0, 1.0  # places along x
 
