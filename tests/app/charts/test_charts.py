@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 
 from equipoise.app.charts.of_correlation import MOST, correlations_of
-from equipoise.app.charts.of_fit import predicted_readings, rate_panel
+from equipoise.app.charts.of_fit import attitude_panels, rate_panel
 from equipoise.app.charts.of_motion import of_motion
 from equipoise.app.charts.of_residuals import of_residuals
 from equipoise.app.text.blocks import Table, number
 from equipoise.app.text.blocks import table as text_table
 from equipoise.app.text.testbed_comparison import beside_testbed
-from equipoise.model.estimate import BODY, Estimate, Parameter, Residual
+from equipoise.model.estimate import BODY, Estimate, Parameter
 from equipoise.model.outcome import outcome
-from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.units import DEG
+from equipoise.procedure.identification.fitted_motion import FittedMotion, residuals_of
 
 
 def estimate_with(values, sd, covariance=None):
@@ -41,14 +41,10 @@ def white(n, sd, seed=1):
     return Samples(np.arange(n) / 10.0, np.random.default_rng(seed).normal(0, sd, (n, 3)))
 
 
-def residual_of(camera, gyro):
-    return Residual(None, None, 1.0, 1, 0.0, attitude=camera, rate=gyro)
-
-
 def test_a_histogram_is_a_density_in_units_of_the_stated_noise(nanosat):
     """White noise of twice the stated sd: half as high in the middle, and of area one."""
     camera = white(20_000, 2 * nanosat.attitude.noise)
-    panels = panels_by_name(of_residuals(residual_of(camera, None), nanosat))
+    panels = panels_by_name(of_residuals(residuals_of(nanosat, camera, None)))
     bars, line = panels["residual_histogram"][0].rows
     middle = bars.x.index(0.0)
     assert bars.columns[0][middle] == pytest.approx(0.5 * line.columns[0][middle], rel=0.1)
@@ -61,8 +57,8 @@ def test_an_autocorrelation_shows_a_wave_and_not_white_noise(nanosat):
     n = 1000
     t = np.arange(n) / 10.0
     wave = np.repeat(np.sin(2 * np.pi * np.arange(n) / 20)[:, None], 3, axis=1)
-    both = residual_of(Samples(t, wave), white(n, nanosat.gyro.noise))
-    camera, gyro = panels_by_name(of_residuals(both, nanosat))["residual_autocorrelation"]
+    both = residuals_of(nanosat, Samples(t, wave), white(n, nanosat.gyro.noise))
+    camera, gyro = panels_by_name(of_residuals(both))["residual_autocorrelation"]
     (rows,) = camera.rows
     assert rows.x[:3] == (1.0, 2.0, 3.0)
     assert rows.columns[0][9] == pytest.approx(-1.0, abs=0.03)  # half a period behind
@@ -73,21 +69,27 @@ def test_an_autocorrelation_shows_a_wave_and_not_white_noise(nanosat):
 
 
 def test_nothing_is_said_of_few_residuals(nanosat):
-    assert list(of_residuals(residual_of(white(10, 1.0), None), nanosat)) == []
-    assert list(of_residuals(None, nanosat)) == []
+    assert list(of_residuals(residuals_of(nanosat, white(10, 1.0), None))) == []
+    assert list(of_residuals((None, None))) == []
 
 
-def test_the_models_reading_of_a_gyro_is_the_measured_one_less_the_residual():
-    """One of three rows was rejected as an outlier: it has no residual."""
+def test_rates_come_from_the_fit_and_the_corrected_gyro_each_at_its_rows():
     t = np.array([0.0, 1.0, 2.0])
-    measured = Samples(t, np.array([[1.0, 2.0, 3.0], [9.0, 9.0, 9.0], [4.0, 5.0, 6.0]]))
-    left = Samples(t[[0, 2]], np.array([[0.5, 0.0, -0.5], [1.0, 0.0, 0.0]]))
-    assert predicted_readings(measured, left).tolist() == [[0.5, 2.0, 3.5], [3.0, 5.0, 6.0]]
-    motion = PredictedMotion(t, np.tile([1.0, 0.0, 0.0, 0.0], (3, 1)), np.zeros((3, 3)))
-    gyro, model = rate_panel(measured, left, motion).rows
-    assert gyro.columns[0] == pytest.approx([1.0 / DEG, 9.0 / DEG, 4.0 / DEG], rel=1e-5)
-    assert model.x == (0.0, 2.0)
-    assert model.columns[0] == pytest.approx([0.5 / DEG, 3.0 / DEG], rel=1e-5)
+    gyro = Samples(t, np.array([[1.0, 2.0, 3.0], [9.0, 9.0, 9.0], [4.0, 5.0, 6.0]]))
+    model = Samples(t[[0, 2]], np.array([[0.5, 2.0, 3.5], [3.0, 5.0, 6.0]]))
+    dots, lines = rate_panel(FittedMotion(None, model, gyro, None, None)).rows
+    assert (dots.mark, lines.mark) == ("dots", "line")
+    assert dots.columns[0] == pytest.approx([1.0 / DEG, 9.0 / DEG, 4.0 / DEG], rel=1e-5)
+    assert lines.x == (0.0, 2.0)
+    assert lines.columns[0] == pytest.approx([0.5 / DEG, 3.0 / DEG], rel=1e-5)
+
+
+def test_an_attitude_of_the_other_sign_is_the_same_attitude():
+    measured = Samples(np.arange(2.0), np.array([[1.0, 0.0, 0.0, 0.0], [0.6, 0.8, 0.0, 0.0]]))
+    fitted = Samples(measured.t, -measured.values)
+    _, after = attitude_panels(measured, measured.values, fitted)
+    camera, model = after.rows
+    assert camera.columns == model.columns
 
 
 def test_correlations_keep_their_signs():

@@ -68,7 +68,8 @@ SAMPLES = {
     ],
     Moment: [Moment("1.5 s", "measurement", f"Moment {ODD}")],
     Figure: [Figure("one", f"Caption {ODD}")],
-    Chart: [Chart("one", f"Caption {ODD}", (PANEL,), f"axis {ODD}", "s", "", ((1.0, 1.5),))],
+    Chart: [Chart("one", f"Caption {ODD}", (PANEL,), f"axis {ODD}", "s", "", ((1.0, 1.5),),
+                  f"Drawing {ODD}")],
     Replay: [
         Replay("two", f"Caption {ODD}", "a", "table-top", UP, (0.0,), ((1.0, 0.0, 0.0, 0.0),),
                (MovingMass(f"mass {ODD}", UP, UP, (0.0, 1.0)),), ((0.1,),), UP, (1.0,) * 9,
@@ -147,11 +148,13 @@ RENDERERS = {"terminal": in_terminal, "html": in_html, "pdf": in_pdf}
 def hidden_texts(block, renderer):
     """Return the texts of a block that a renderer draws or leaves out."""
     if renderer == "terminal":
-        return ()
+        return (block.drawing,) if isinstance(block, Chart) else ()
     if isinstance(block, Figure):
         return ("one",)
     if isinstance(block, Chart):
-        return ("one", *(text for name in IN_DRAWING for text in texts(getattr(block, name))))
+        own = (block.caption,) if renderer == "pdf" else ()
+        drawn = (text for name in IN_DRAWING for text in texts(getattr(block, name)))
+        return ("one", *own, *drawn)
     if isinstance(block, Replay):
         return ("two", block.caption) if renderer == "pdf" else ("two",)
     return ()

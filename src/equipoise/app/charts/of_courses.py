@@ -6,7 +6,6 @@ import numpy as np
 
 from equipoise.app.charts.of_fit import shaded_times
 from equipoise.app.charts.rows import banded, rows_of, straight
-from equipoise.app.figures.balancing import balanced_com, displacements
 from equipoise.app.figures.balancing.story import Story
 from equipoise.app.figures.base.com_panels import SETTLED
 from equipoise.app.figures.base.strokes import around
@@ -20,6 +19,12 @@ from equipoise.model.recording import Recording
 from equipoise.model.units import DEG, MM, UM
 from equipoise.procedure.identification.record_courses import TrackedCourses
 
+BALANCED = (
+    "Centre of mass with the masses in their present positions, in body axes: tracker (lines, "
+    "bands of two standard deviations), target with tolerance (dashed, shaded), estimates of the "
+    "procedure and, of a simulated platform, the truth (dots). Grey: masses move."
+)
+DISPLACED = "Displacements of the balancing masses from home."
 RATE, HOME = "figure11_tracked_rate", "figure12_tracked_com"
 OF_TRACKING = (RATE, HOME)
 
@@ -69,11 +74,11 @@ def of_balancing(
     real = () if story.truth is None else (true_rows(story.truth),)
     beside = (wanted_rows(story, tracked.standing.t), *measured_rows(story), *real)
     panel = com_panel("centre of mass, masses as they stand", tracked.standing, *beside)
-    yield Chart("figure14_balancing", balanced_com.CAPTION, (panel,), record=record, shaded=shaded)
+    yield Chart("figure14_balancing", BALANCED, (panel,), record=record, shaded=shaded)
     if recording.masses is not None and len(recording.masses):
         rows = straight(recording.mass_names, recording.masses.t, recording.masses.values, MM)
         moved = Panel("displacement from home", "mm", (rows,))
-        yield Chart("figure15_displacements", displacements.CAPTION, (moved,), record=record)
+        yield Chart("figure15_displacements", DISPLACED, (moved,), record=record)
 
 
 def com_panel(title: str, course: Course, *beside: Rows) -> Panel:

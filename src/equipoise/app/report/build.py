@@ -77,8 +77,8 @@ def figure_blocks(pictures: Sequence[Picture], charts: Sequence[Drawn]) -> Block
 
 
 def _chart_or_figure(picture: Picture, chart: Chart | None) -> Block:
-    """Return the chart under the caption of its picture, else the picture."""
-    return figure_of(picture) if chart is None else replace(chart, caption=picture.caption)
+    """Return the chart with its picture as still form, else the picture."""
+    return figure_of(picture) if chart is None else replace(chart, drawing=picture.caption)
 
 
 def estimate_sections(

@@ -66,21 +66,28 @@ def _section(section: Section, drawings: Drawings) -> str:
 
 
 def _block(block: Block, drawings: Drawings) -> str:
-    if isinstance(block, Figure | Chart):
-        return _figure(block, drawings[block.name])
-    return _set(block)
+    if isinstance(block, Figure):
+        caption = f"<figcaption>{for_html(block.caption)}</figcaption>"
+        return f"<figure>{_drawn(block.name, drawings[block.name])}{caption}</figure>"
+    if isinstance(block, Chart) and block.drawing:
+        return _live(block, _drawn(block.name, drawings[block.name]), block.drawing)
+    return _live(block) if isinstance(block, Chart | Replay) else _set(block)
 
 
-def _figure(block: Figure | Chart, drawing: bytes) -> str:
-    """Return a drawing; of a chart also the place for what a page with scripts shows instead."""
-    caption = f"<figcaption>{for_html(block.caption)}</figcaption>"
-    drawn = f"{_drawn(block.name, drawing)}{caption}</figure>"
-    return f"{_live(block)}{drawn}" if isinstance(block, Chart) else f"<figure>{drawn}"
+def _live(block: Chart | Replay, drawn: str = "", still: str = "") -> str:
+    """Return the place that scripts fill, with what stands there without them: a drawing, or none.
 
-
-def _live(block: Chart | Replay, hidden: str = "") -> str:
+    Chart and drawing each have their caption.
+    """
+    caption = f'<span class="of-chart">{for_html(block.caption)}</span>'
+    if drawn:
+        caption += f'<span class="of-drawing">{for_html(still)}</span>'
     named = f'data-kind="{block.kind}" data-name="{for_html(block.name)}"'
-    return f'<figure {named}{hidden}><div class="live" hidden></div>'
+    hidden = "" if drawn else " hidden"
+    return (
+        f'<figure {named}{hidden}><div class="live" hidden></div>{drawn}'
+        f"<figcaption>{caption}</figcaption></figure>"
+    )
 
 
 def _drawn(name: str, drawing: bytes) -> str:
@@ -135,12 +142,6 @@ def _(block: Moment) -> str:
 @_set.register
 def _(block: Chart) -> str:
     return _set(course_table(block))
-
-
-@_set.register
-def _(block: Replay) -> str:
-    """Return a place that scripts fill, and show."""
-    return f"{_live(block, ' hidden')}<figcaption>{for_html(block.caption)}</figcaption></figure>"
 
 
 @_set.register

@@ -3,7 +3,6 @@
 from dataclasses import replace
 from pathlib import Path
 
-from equipoise.app.figures import charted
 from equipoise.app.figures.base.files import rendered
 from equipoise.app.report import logbook_entry
 from equipoise.app.report.build import report
@@ -12,7 +11,6 @@ from equipoise.app.report.pdf import can_set, pdf, png
 from equipoise.app.report.run_record import Output, RunRecord
 from equipoise.app.report.saved_report import DOCUMENT, saved_document, saved_drawing
 from equipoise.app.text.blocks import Document, printed, text_of_document
-from equipoise.app.text.charts import Chart
 from equipoise.app.text.json_document import dump
 from equipoise.io.documents.run_folder import announce
 from equipoise.io.files.atomic_file import write_folder
@@ -38,19 +36,11 @@ def write_output(output: Output, folder: Path) -> list[Path]:
 
 def files_of(record: RunRecord) -> Files:
     """Return figures and report as files of a folder; without typst there is no PDF."""
-    drawings = drawings_of(record)
+    drawings = {p.name: rendered(p.figure, "svg") for p in (*record.step_figures, *record.figures)}
     figures = {place(name): drawing for name, drawing in drawings.items()}
     document = report(record)
     made = {DOCUMENT: text_of_document(document), **set_document(document, drawings)}
     return {**figures, **record.files, **made}
-
-
-def drawings_of(record: RunRecord) -> Drawings:
-    """Return every figure as SVG, and the still drawings of charts that have no figure."""
-    pictures = {p.name: p.figure for p in (*record.step_figures, *record.figures)}
-    charts = (chart for chart in record.charts if isinstance(chart, Chart))
-    still = {c.name: charted.draw(c) for c in charts if c.name not in pictures}
-    return {name: rendered(figure, "svg") for name, figure in (pictures | still).items()}
 
 
 def set_document(document: Document, drawings: Drawings) -> Files:

@@ -150,7 +150,11 @@ class Document:
     def figures(self) -> tuple[str, ...]:
         """Names of all figures, in their order."""
         blocks = (block for section in self.sections for block in section.blocks)
-        return tuple(block.name for block in blocks if isinstance(block, Figure | Chart))
+        return tuple(
+            block.name
+            for block in blocks
+            if isinstance(block, Figure) or (isinstance(block, Chart) and block.drawing)
+        )
 
 
 def number(heading: str, unit: str = "") -> Column:

@@ -1,7 +1,7 @@
 """Blocks that a page shows to be used: lines over a common axis, a replay, correlations.
 
-Numbers stand in the unit that is shown. Terminal, PDF, print and pages without scripts show the
-still form of a block: a chart's drawing by its name, correlations as a table, a replay not at all.
+Numbers stand in the unit that is shown. PDF, print and pages without scripts show the still form of
+a block: a chart's drawing if it has one, correlations as a table, a replay not at all.
 """
 
 from dataclasses import dataclass
@@ -39,13 +39,14 @@ class Panel:
 class Chart:
     """Panels that share their abscissa. Charts of one ``record`` share cursor and range too."""
 
-    name: str  # of its drawing
+    name: str
     caption: str
     panels: tuple[Panel, ...]
     axis: str = "time"
     axis_unit: str = "s"
     record: str = ""
     shaded: tuple[tuple[float, float], ...] = ()  # from, to
+    drawing: str = ""  # caption of the figure of its name, its still form; empty: there is none
     kind: Literal["chart"] = "chart"
 
 

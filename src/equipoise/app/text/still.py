@@ -14,7 +14,7 @@ WIDTH = 40  # letters of a course, chosen: beside its name in 80 columns
 def still(document: Document) -> Document:
     """Return a document for media that do not move: drawings and tables in place of charts.
 
-    A replay has no still form and is left out.
+    What has no still form is left out.
     """
     sections = (replace(s, blocks=tuple(_still(s.blocks))) for s in document.sections)
     return replace(document, sections=tuple(sections))
@@ -22,12 +22,17 @@ def still(document: Document) -> Document:
 
 def _still(blocks: Iterable[Block]) -> Iterator[Block]:
     for block in blocks:
-        if isinstance(block, Chart):
-            yield Figure(block.name, block.caption)
-        elif isinstance(block, Heatmap):
+        if isinstance(block, Heatmap):
             yield correlation_table(block)
+        elif isinstance(block, Chart):
+            yield from drawing_of(block)
         elif not isinstance(block, Replay):
             yield block
+
+
+def drawing_of(chart: Chart) -> tuple[Figure, ...]:
+    """Return the figure that a chart stands for; nothing if there is none."""
+    return (Figure(chart.name, chart.drawing),) if chart.drawing else ()
 
 
 def correlation_table(block: Heatmap) -> Table:

@@ -53,7 +53,7 @@ def charts(shown: Demonstration, courses: DemoCourses) -> tuple[Drawn, ...]:
     balanced = balance_views.charts_of(shown.balancing, courses.balanced)
     return (
         *of_motion(recording, bed, shown.estimate, IDENTIFICATION),
-        *charts_of_fit(recording, bed, shown.estimate, along),
+        *charts_of_fit(recording, along),
         *charts_of_tracking(courses.still, courses.tracked, IDENTIFICATION),
         *moved,
         *(chart for chart in balanced if chart.name not in OF_TRACKING),

@@ -21,7 +21,8 @@ export class ChartFigure {
     this.range = rangeOf(block.record || block.name);
     this.live = place.querySelector(".live");
     this.live.hidden = false;
-    place.dataset.live = "true"; // the drawing stands on paper only
+    place.hidden = false;
+    place.dataset.live = "true"; // the drawing, if there is one, stands on paper only
     const tools = make("div", "tools", this.live);
     for (const [word, act] of TOOLS) this.addTool(tools, word, act);
     make("span", "note", tools).textContent = HELP;
