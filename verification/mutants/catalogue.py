@@ -779,6 +779,14 @@ APP = _of(
      "app/test_last_catch.py"),
     ("report/saved_report.py", "if NAME.fullmatch(name) is None:", "if False:",
      "app/report/test_foreign_report.py"),
+    ("charts/rows.py", "rows = np.sort([low, high], axis=0)", "rows = np.array([low, low])",
+     "app/charts/test_rows.py"),
+    ("charts/of_correlation.py", "covariance / np.outer(sd, sd)", "-covariance / np.outer(sd, sd)",
+     "app/charts/test_charts.py"),
+    ("charts/of_residuals.py", "column / noise, edges", "column * noise, edges",
+     "app/charts/test_charts.py"),
+    ("text/testbed_comparison.py", "normalised_difference(parameter, other) if",
+     "normalised_difference(other, parameter) if", "app/charts/test_charts.py"),
 )  # fmt: skip
 
 MUTANTS = (

@@ -124,8 +124,8 @@ def test_differences_from_the_testbed_are_in_common_sd(nanosat):
 def test_a_difference_beyond_three_sd_is_set_off(nanosat):
     bed = replace(nanosat, com_sd=np.full(3, 1e-9))
     shown = text_table("", (number(""),), (("com_x",),))
-    far = estimate_with((*VALUES[:6], 10e-6, 0.0, 0.0), SD)
-    assert beside_testbed(shown, far, bed).rows[0].tone == "caution"
+    moved = estimate_with((*VALUES[:6], 10e-6, 0.0, 0.0), SD)
+    assert beside_testbed(shown, moved, bed).rows[0].tone == "caution"
 
 
 def test_without_an_sd_only_the_testbeds_value_stands_there(nanosat):

@@ -42,7 +42,7 @@ def chromium():
 
 
 class Opened:
-    """A page that shows a report, and what it asked and said."""
+    """A page that shows a report, and what it requested and wrote to its console."""
 
     def __init__(self, chromium, report, **options):
         self.requested, self.said = [], []
@@ -89,7 +89,7 @@ def opened(page_once):
 
 
 @needs_chromium
-def test_it_opens_from_its_file_and_asks_nobody(opened, report):
+def test_it_opens_from_its_file_without_a_request(opened, report):
     outside = [url for url in opened.requested if not url.startswith(("blob:", "data:"))]
     assert outside == [report.as_uri()]
     assert [text for kind, text in opened.said if kind in ("error", "warning")] == []
@@ -158,6 +158,13 @@ def test_keys_and_buttons_zoom_and_move_as_the_mouse_does(opened):
     assert opened.span("figure08_rate") == [start, end]
 
 
+def moment_of(place):
+    """Return the time of the cursor, as a panel's heading states it."""
+    stated = re.compile(r"at ([\d.]+) s")
+    expect(place).to_have_text(stated)
+    return stated.search(place.inner_text())[1]
+
+
 @needs_chromium
 def test_the_cursor_stands_at_the_same_moment_in_all_charts_of_the_record(opened):
     plot = opened.plot("figure08_rate")
@@ -165,7 +172,7 @@ def test_the_cursor_stands_at_the_same_moment_in_all_charts_of_the_record(opened
     box = plot.bounding_box()
     plot.hover(position={"x": box["width"] / 2, "y": 20})
     moments = [
-        re.search(r"at ([\d.]+) s", opened.figure(name).locator(".eq-unit").first.inner_text())[1]
+        moment_of(opened.figure(name).locator(".eq-unit").first)
         for name in ("figure08_rate", "gyro_residual", "figure06_attitude")
     ]
     start, end = opened.span("figure08_rate")
@@ -216,7 +223,7 @@ def test_without_scripts_and_on_paper_the_drawings_stand(chromium, report, opene
 @needs_chromium
 @pytest.mark.parametrize("theme", THEMES)
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size[0]}x{size[1]}")
-def test_it_fits_every_screen_and_keeps_nobody_out(chromium, report, tmp_path, size, theme):
+def test_it_fits_every_screen_and_is_accessible(chromium, report, tmp_path, size, theme):
     """In both themes; the pictures are there to be looked at."""
     width, height = size
     there = Opened(chromium, report, viewport={"width": width, "height": height},

@@ -14,7 +14,7 @@ from equipoise.model.arrays import Floats, Series, Series1
 
 STRETCHES = 900  # of a record, chosen: more than a screen shows apart, few enough for a file
 GAP = 10.0  # times the median step, chosen: a line is broken there
-APART = 1e-6  # of the record, chosen: less than any zoom shows
+NUDGE = 1e-6  # of the record, chosen: less than any zoom shows
 DIGITS = 6  # of a number, chosen: what a zoom of a thousand times shows
 
 
@@ -56,7 +56,7 @@ def _increasing(t: Series1) -> Series1:
     if len(t) < 2:
         return t
     ties = np.cumsum(np.diff(t, prepend=-np.inf) <= 0)
-    return t + APART * (t[-1] - t[0]) * ties
+    return t + NUDGE * (t[-1] - t[0]) * ties
 
 
 def _broken(t: Series1, every: list[Series]) -> tuple[Series1, list[Series]]:
