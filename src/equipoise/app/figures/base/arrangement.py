@@ -1,4 +1,4 @@
-"""The places of panels on a figure, and of the labels beside them, measured once or twice.
+"""The places of panels on a figure, and of the labels beside them, measured a few times.
 
 Each column is as wide, and each row as high, as what is beside its panels leaves. Labels of a
 column's vertical axes stand below each other, and so do those of a row. matplotlib's own way
@@ -15,6 +15,7 @@ from equipoise.model.arrays import Floats
 
 PAD = 3 / 72  # inches around each panel and what is beside it, chosen: as matplotlib has it
 POINT = 1 / 72  # inches
+AGAIN = 3  # times at most that panels are placed: one of another size may have other ticks, longer or shorter
 
 
 class Beside(NamedTuple):
@@ -38,9 +39,10 @@ def arrange(figure: Figure) -> None:
     heights = [legend.get_window_extent(renderer).height for legend in figure.legends]
     head = sum(height / figure.dpi + 2 * PAD for height in heights)
     place(figure, [GUESSED] * len(figure.axes), head)
-    numbers = _numbers(figure)
-    around = _placed(figure, renderer, head)
-    if _numbers(figure) != numbers:  # a panel of another size may have other ticks
+    numbers, around = _numbers(figure), _placed(figure, renderer, head)
+    for _ in range(AGAIN):
+        if numbers == (numbers := _numbers(figure)):
+            break
         around = _placed(figure, renderer, head)
     for axes, ticks in zip(figure.axes, around, strict=True):
         axes.apply_aspect()  # as drawing does
