@@ -15,7 +15,7 @@ from equipoise.model.arrays import Floats
 
 PAD = 3 / 72  # inches around each panel and what is beside it, chosen: as matplotlib has it
 POINT = 1 / 72  # inches
-AGAIN = 3  # times at most that panels are placed: one of another size may have other ticks, longer or shorter
+AGAIN = 3  # times at most, chosen: a panel of another size may have other ticks, longer or shorter
 
 
 class Beside(NamedTuple):
