@@ -44,11 +44,21 @@ def arrange(figure: Figure) -> None:
         if numbers == (numbers := _numbers(figure)):
             break
         around = _placed(figure, renderer, head)
+    hold_ticks(figure)
     for axes, ticks in zip(figure.axes, around, strict=True):
         axes.apply_aspect()  # as drawing does
         width, height = axes.get_position().size * figure.get_size_inches()
         axes.yaxis.set_label_coords(-(ticks.left + axes.yaxis.labelpad * POINT) / width, 0.5)
         axes.xaxis.set_label_coords(0.5, -(ticks.bottom + axes.xaxis.labelpad * POINT) / height)
+
+
+def hold_ticks(figure: Figure) -> None:
+    """Keep the ticks as they were measured; drawn at other dots an inch, they might be others."""
+    from matplotlib.ticker import FixedLocator
+
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(FixedLocator([float(tick) for tick in axis.get_majorticklocs()]))
 
 
 def _placed(figure: Figure, renderer: Any, head: float) -> list[Beside]:
