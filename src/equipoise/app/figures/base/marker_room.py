@@ -29,6 +29,7 @@ def make_room(figure: Figure) -> Figure:
 
 def widened(axes: Axes, dpi: float) -> bool:
     """Widen the limits of a panel by what its markers lack; say whether any lacked."""
+    axes.autoscale_view()  # else limits are those of before the last line
     box = np.array(axes.get_window_extent().extents).reshape(2, 2)
     lacking = np.zeros((2, 2))  # pixels, below and above, along x and y
     for at, radius in markers(axes, dpi):

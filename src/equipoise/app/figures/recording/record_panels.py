@@ -68,7 +68,7 @@ def _enough(channel: Samples | None) -> Samples | None:
 def _tilt(attitude: Samples, up: Vector3 | None) -> Panel:
     name = most_upright(attitude)
     axis = BODY_AXES[name] if up is None else up
-    of = f"tilt of {name}, deg" if up is None else "tilt, deg"
+    of = f"tilt\nof {name}, deg" if up is None else "tilt, deg"
 
     def draw(axes: Axes) -> None:
         dots(axes, attitude.t, tilt(attitude.values, axis) / DEG, BLUE)
@@ -162,5 +162,10 @@ def _spacing_scale(axes: Axes, steps: Series1) -> None:
 def _legend(axes: Axes) -> None:
     """Put the names at the right, where they cover nothing."""
     axes.legend(
-        loc="center left", bbox_to_anchor=(1.0, 0.5), markerscale=3, handlelength=1.7, fontsize=7.5
+        loc="center left",
+        bbox_to_anchor=(1.0, 0.5),
+        markerscale=3,
+        handlelength=1.7,
+        fontsize=7.5,
+        labelspacing=0.15,
     )
