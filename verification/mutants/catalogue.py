@@ -55,6 +55,8 @@ MODEL = _of("model", *(
 
 MATHS = _of(
     "maths",
+    ("whiteness.py", "centred[k:] * centred[:-k]", "-centred[k:] * centred[:-k]",
+     "procedure/identification/test_fitted_motion.py"),
     ("complex_step.py", "np.imag(function(each)) / STEP", "-np.imag(function(each)) / STEP",
      "estimation/mass_budget"),
     ("attitude.py", "2 * (x * y - w * z), 2 * (x * z + w * y)",
@@ -468,6 +470,12 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
+    ("identification/fitted_motion.py", "exponential(-left.values)", "exponential(left.values)",
+     "procedure/identification/test_fitted_motion.py"),
+    ("identification/fitted_motion.py", "(rows.values - bias) @", "(rows.values + bias) @",
+     "procedure/identification/test_fitted_motion.py"),
+    ("identification/fitted_motion.py", "fitted.values - left", "fitted.values + left",
+     "procedure/identification/test_fitted_motion.py"),
     ("steps/sampler.py", "to_matrix(attitude.q).T @ known", "to_matrix(attitude.q) @ known",
      "procedure/steps/test_sampler.py"),
     ("steps/choose_move.py", "haste, stood(", "haste, -stood(",
@@ -779,6 +787,14 @@ APP = _of(
      "app/test_last_catch.py"),
     ("report/saved_report.py", "if NAME.fullmatch(name) is None:", "if False:",
      "app/report/test_foreign_report.py"),
+    ("charts/rows.py", "rows = np.sort([low, high], axis=0)", "rows = np.array([low, low])",
+     "app/charts/test_rows.py"),
+    ("charts/of_correlation.py", "covariance / np.outer(sd, sd)", "-covariance / np.outer(sd, sd)",
+     "app/charts/test_charts.py"),
+    ("charts/of_residuals.py", "column / noise, edges", "column * noise, edges",
+     "app/charts/test_charts.py"),
+    ("text/testbed_comparison.py", "normalised_difference(parameter, other) if",
+     "normalised_difference(other, parameter) if", "app/charts/test_charts.py"),
 )  # fmt: skip
 
 MUTANTS = (

@@ -24,18 +24,22 @@ BINS = 5  # of the periodogram at least, chosen: the mean of three columns is kn
 BANDS = 30  # at most, chosen: among more the greatest by chance is much above the rest
 
 
+def autocorrelation(residual: Series, lags: int) -> Series:
+    """Return rho_k, k = 1 ... lags, a row a lag, of each column by itself; n > lags."""
+    centred: Floats = residual - np.mean(residual, axis=0)
+    power = np.maximum(np.sum(centred**2, axis=0), 1e-300)
+    rho = [np.sum(centred[k:] * centred[:-k], axis=0) / power for k in range(1, lags + 1)]
+    return np.array(rho, dtype=np.float64).reshape(lags, residual.shape[1])
+
+
 def portmanteau(residual: Series) -> float:
     """Return the probability that white noise shows correlations as large; 1 for too few rows."""
     n = len(residual)
     if n < FEWEST:
         return 1.0
-    centred: Floats = residual - np.mean(residual, axis=0)
-    power = np.maximum(np.sum(centred**2, axis=0), 1e-300)
-    rho: list[Floats] = [
-        np.sum(centred[k:] * centred[:-k], axis=0) / power for k in range(1, LAGS + 1)
-    ]
+    rho = autocorrelation(residual, LAGS)
     left = n - np.arange(1, LAGS + 1)
-    Q: Floats = n * (n + 2) * np.sum(np.array(rho) ** 2 / left[:, None], axis=0)
+    Q: Floats = n * (n + 2) * np.sum(rho**2 / left[:, None], axis=0)
     return chi_square_chance(LAGS * Q.size, float(np.sum(Q)))
 
 

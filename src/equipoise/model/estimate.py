@@ -11,6 +11,7 @@ from equipoise.model.event import Event
 from equipoise.model.outcome import Outcome
 from equipoise.model.presentation import Plotted
 from equipoise.model.reasons.reason import Reason
+from equipoise.model.recording import Samples
 
 COM = ("com_x", "com_y", "com_z")
 END = ("com_end_x", "com_end_y", "com_end_z")  # with the masses as they stand at the end
@@ -73,6 +74,8 @@ class Residual:
     held_out_span: tuple[float, float] | None = None  # s
     error_index: float | None = None  # of a linear method: share of the known side that is left
     error_indices: Mapping[str, float] = field(default_factory=dict[str, float])  # -, by name
+    attitude: Samples | None = None  # rad, body axes: of the camera's rows that were fitted
+    rate: Samples | None = None  # rad/s, gyro axes: of the gyro's, bias and alignment counted
 
     @property
     def reduced_chi_square(self) -> float:

@@ -44,7 +44,7 @@ def pictures():
     motions, still = fit_motions(recording, BED, estimate), window(recording, 0.0, 60.0)
     moved = tracked_courses(recording, BED, estimate, compare=True)
     found = [
-        *of_fit(recording, BED, motions),
+        *of_fit(recording, motions),
         *of_tracking(still, tracked_courses(still, BED, estimate), truth[1][0]),
         *of_move(recording, moved, truth),
         *of_balancing(recording, BED, moved, story),

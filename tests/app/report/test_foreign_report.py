@@ -23,6 +23,7 @@ from equipoise.app.text.blocks import (
     Table,
     text_of_document,
 )
+from equipoise.app.text.charts import Chart, Heatmap, Panel, Rows
 
 NAMES = ("[red]a[/red] [link=http://x]b[/link]", "<script>alert(1)</script>", "#eval(\"1\") $x$ @a",
          "=cmd|'/c calc'!A1", "\x1b]0;t\x07", "a\u202eb\u200b", "../../x")  # fmt: skip
@@ -154,6 +155,8 @@ def nested(depth):
     return '{"title": ' + "[" * depth + "]" * depth + "}"
 
 
+UNEQUAL = Rows(("x",), (1.0, 2.0), ((1.0,),))
+MANY = Rows(("x",), tuple(map(float, range(60_000))), ((0.0,) * 60_000,))
 LARGE = {
     "20 000 paragraphs": document(*[Paragraph("x")] * 20_000),
     "200 000 texts": document(Items((Item("x"),) * 200_000)),
@@ -163,6 +166,9 @@ LARGE = {
     "nesting": nested(100_000),
     "row too wide": document(Table("", (Column("a"),), (Row(("1", "2")),))),
     "row too narrow": document(Table("", (Column("a"), Column("b")), (Row(("1",)),))),
+    "columns of unequal length": document(Chart("a", "", (Panel("", "", (UNEQUAL,)),))),
+    "a million numbers": document(*[Chart("a", "", (Panel("", "", (MANY,)),))] * 10),
+    "correlations not square": document(Heatmap("", ("a", "b"), ((1.0,),))),
     "no text": json.dumps({"title": 3}),
     "lone surrogate": document(Paragraph("x")).replace('"x"', '"\\ud800"'),
     "unknown block": document(Paragraph("x")).replace('"paragraph"', '"script"'),

@@ -20,6 +20,8 @@ from equipoise.app.text.blocks import (
     Paragraph,
     Table,
 )
+from equipoise.app.text.charts import Chart, Heatmap, Replay
+from equipoise.app.text.still import correlation_table, course_table
 
 STYLES = {"plain": "", "good": "green", "bad": "red", "caution": "yellow", "quiet": "dim"}
 MARKS = {"plain": "", "good": "ok", "bad": "PROBLEM", "caution": "!", "quiet": "~"}
@@ -131,3 +133,19 @@ def _(block: Moment) -> RichTable:
 @renderable.register
 def _(block: Figure) -> Text:
     return shown(f"[{block.name}] {block.caption}", style="dim")
+
+
+@renderable.register
+def _(block: Chart) -> Group:
+    caption = shown(f"[{block.name}] {block.caption}", style="dim")
+    return Group(caption, renderable(course_table(block)))
+
+
+@renderable.register
+def _(block: Replay) -> Text:
+    return shown(f"[{block.name}] {block.caption}", style="dim")
+
+
+@renderable.register
+def _(block: Heatmap) -> RenderableType:
+    return renderable(correlation_table(block))

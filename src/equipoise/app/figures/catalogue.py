@@ -10,10 +10,10 @@ from equipoise.app.figures.balancing.story import Story
 from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.estimate import (
     attitude_fit,
-    attitude_residual,
     com_course,
     moved_com,
     rates,
+    residuals,
     tracked_com,
     tracked_rate,
 )
@@ -40,11 +40,11 @@ class Picture:
 
 
 def of_estimate(
-    recording: Recording, testbed: Testbed, estimate: Estimate, courses: RecordCourses
+    recording: Recording, estimate: Estimate, courses: RecordCourses
 ) -> Iterator[Picture]:
     """Yield the figures that suit the method of an estimate."""
     if courses.fit is not None:
-        yield from of_fit(recording, testbed, courses.fit)
+        yield from of_fit(recording, courses.fit)
     if courses.tracked is None:
         yield from of_course(recording, estimate)
     else:
@@ -52,15 +52,19 @@ def of_estimate(
         yield from of_move(recording, courses.tracked, None)
 
 
-def of_fit(recording: Recording, testbed: Testbed, motions: FitMotions) -> Iterator[Picture]:
-    """Yield Figs. 6, 7 and 8."""
+def of_fit(recording: Recording, motions: FitMotions) -> Iterator[Picture]:
+    """Yield Figs. 6, 7 and 8, and what the fit leaves of a gyro."""
     if recording.attitude is not None:
-        drawn = attitude_fit.draw(recording, motions.before, motions.after)
+        drawn = attitude_fit.draw(recording, motions)
         yield Picture("figure06_attitude", attitude_fit.CAPTION, drawn)
-        noise = testbed.attitude.noise if testbed.attitude else None
-        drawn = attitude_residual.draw(recording, motions.after, noise)
-        yield Picture("figure07_residual", attitude_residual.CAPTION, drawn)
-    yield Picture("figure08_rate", rates.CAPTION, rates.draw(recording, motions.after))
+    if motions.fitted.camera_residual is not None:
+        drawn = residuals.draw(recording, motions.fitted.camera_residual, residuals.CAMERA)
+        yield Picture("figure07_residual", residuals.CAMERA.caption, drawn)
+    drawn = rates.draw(recording, motions.fitted)
+    yield Picture("figure08_rate", rates.caption(motions.fitted), drawn)
+    if motions.fitted.gyro_residual is not None:
+        drawn = residuals.draw(recording, motions.fitted.gyro_residual, residuals.GYRO)
+        yield Picture("gyro_residual", residuals.GYRO.caption, drawn)
 
 
 def of_course(recording: Recording, estimate: Estimate) -> Iterator[Picture]:

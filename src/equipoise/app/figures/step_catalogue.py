@@ -1,19 +1,21 @@
 """The figure that shows a step of a procedure."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from equipoise.app.figures.base.canvas import Figure
 from equipoise.app.figures.catalogue import Picture
-from equipoise.app.figures.estimate import attitude_residual, step_com
+from equipoise.app.figures.estimate import residuals, step_com
 from equipoise.app.figures.estimate.step_com import Mark, Wanted
 from equipoise.app.figures.recording import measurement
 from equipoise.app.text.com_estimate import as_it_stands, at_home
-from equipoise.model.predicted_motion import PredictedMotion
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.procedure.identification.fitted_motion import residuals_of
 
 MOST = 40  # figures of steps in one report; chosen: a run that holds for hours has thousands
 
@@ -25,7 +27,6 @@ class Frame:
     testbed: Testbed
     wanted: Wanted | None = None  # where the centre of mass is to be
     at_home: bool = False  # it is shown with the masses at home; else as they stand
-    motions: Mapping[Step, PredictedMotion] = field(default_factory=dict[Step, PredictedMotion])
 
 
 def pictures_of_steps(
@@ -50,14 +51,28 @@ def _reported(step: Step, frame: Frame, before: Mark | None) -> tuple[str, Figur
     recording, estimated, testbed = step.recording, _estimated(step, frame), frame.testbed
     if step.kind == "measurement" and recording is not None:
         return measurement.CAPTION, measurement.draw(recording, testbed.up)
-    if recording is not None and step in frame.motions:
-        noise = testbed.attitude.noise if testbed.attitude else None
-        drawn = attitude_residual.draw(recording, frame.motions[step], noise)
-        return attitude_residual.CAPTION, drawn
+    if step.kind == "estimate" and recording is not None and step.estimate is not None:
+        found = _residuals(recording, step.estimate, testbed)
+        if found is not None:
+            return found
     if estimated is None:
         return None
     marks = [mark for mark in (before, estimated) if mark is not None]
-    return step_com.caption(frame.at_home, frame.wanted), step_com.draw(marks, frame.wanted)
+    return step_com.caption(frame.at_home, marks, frame.wanted), step_com.draw(marks, frame.wanted)
+
+
+def _residuals(
+    recording: Recording, estimate: Estimate, testbed: Testbed
+) -> tuple[str, Figure] | None:
+    """Return what a fit leaves of the camera's rows, without a camera of the gyro's."""
+    left = estimate.residual
+    if left is None:
+        return None
+    every = residuals_of(testbed, left.attitude, left.rate)
+    for of, sensor in zip(every, (residuals.CAMERA, residuals.GYRO), strict=True):
+        if of is not None:
+            return sensor.caption, residuals.draw(recording, of, sensor)
+    return None
 
 
 def _estimated(step: Step, frame: Frame) -> Mark | None:

@@ -29,5 +29,5 @@ def figure(done: Identification) -> "Figure | None":
     """Return the first figure of the report, else the intervals."""
     from equipoise.app.figures.catalogue import of_estimate as pictures
 
-    first = next(pictures(done.recording, done.testbed, done.estimate, done.courses()), None)
+    first = next(pictures(done.recording, done.estimate, done.courses()), None)
     return of_estimate.figure(done.estimate) if first is None else first.figure

@@ -1,6 +1,7 @@
 """The report of a run, as a document of blocks. It adds no number of its own."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.report.run_record import RunRecord
@@ -19,8 +20,10 @@ from equipoise.app.text.blocks import (
     paragraphs,
     tabulated,
 )
+from equipoise.app.text.charts import Chart, Drawn, Replay
 from equipoise.app.text.estimate_text import estimate_tables, residual_line, unobservable_items
 from equipoise.app.text.run_blocks import finding_items, moment_of, reason_items
+from equipoise.app.text.testbed_comparison import beside_testbed
 from equipoise.model.estimate import Estimate
 from equipoise.model.finding import Finding
 from equipoise.model.step import Step
@@ -41,8 +44,8 @@ def _sections(record: RunRecord) -> Iterator[Section]:
     yield Section("What was asked", (_pairs(record.requested),))
     yield Section("Platform", tuple(_platform(record.testbed)))
     yield from record.sections
-    if record.figures:
-        yield Section("Figures", tuple(map(figure_of, record.figures)))
+    if record.figures or record.charts:
+        yield Section("Figures", figure_blocks(record.figures, record.charts))
     yield Section("Where this comes from", (_pairs(record.origin),))
 
 
@@ -61,13 +64,32 @@ def steps_section(title: str, steps: Sequence[Step], figures: Mapping[Step, Pict
     return Section(title, tuple(blocks))
 
 
-def estimate_sections(estimate: Estimate | None, *more: Block) -> tuple[Section, ...]:
-    """Return the mass properties, what else is to be said of them, and what is unobservable."""
+def figure_blocks(pictures: Sequence[Picture], charts: Sequence[Drawn]) -> Blocks:
+    """Return replays, pictures in their order, each as its chart if it has one, other charts."""
+    by_name = {chart.name: chart for chart in charts if isinstance(chart, Chart)}
+    shown = {picture.name for picture in pictures}
+    replays = (chart for chart in charts if isinstance(chart, Replay))
+    return (
+        *replays,
+        *(_chart_or_figure(picture, by_name.get(picture.name)) for picture in pictures),
+        *(chart for name, chart in by_name.items() if name not in shown),
+    )
+
+
+def _chart_or_figure(picture: Picture, chart: Chart | None) -> Block:
+    """Return the chart with its picture as still form, else the picture."""
+    return figure_of(picture) if chart is None else replace(chart, drawing=picture.caption)
+
+
+def estimate_sections(
+    estimate: Estimate | None, testbed: Testbed, *more: Block
+) -> tuple[Section, ...]:
+    """Return the mass properties beside the testbed's, what else is said, what is unobservable."""
     if estimate is None:
         return ()
     found: Blocks = (
         Paragraph(estimate.outcome.sentence),
-        *estimate_tables(estimate),
+        *(beside_testbed(shown, estimate, testbed) for shown in estimate_tables(estimate)),
         *paragraphs(residual_line(estimate.residual)),
         *more,
     )

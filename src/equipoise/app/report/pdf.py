@@ -10,6 +10,7 @@ from typing import Any
 from equipoise.app.report.html import Drawings
 from equipoise.app.text.blocks import Document
 from equipoise.app.text.escaping import for_typst
+from equipoise.app.text.still import still
 from equipoise.model.errors import InputError
 
 TEMPLATE = "page.typ"
@@ -33,7 +34,7 @@ def pdf(document: Document, drawings: Drawings) -> bytes:
     """
     source = (files("equipoise.app.report") / TEMPLATE).read_bytes()
     parts = {f"{name}.svg": drawing for name, drawing in drawings.items()}
-    inputs = {"page": json.dumps(for_typst(asdict(document)))}
+    inputs = {"page": json.dumps(for_typst(asdict(still(document))))}
     return _set("the report as PDF", {"main.typ": source, **parts}, sys_inputs=inputs)
 
 

@@ -10,6 +10,7 @@ from datetime import datetime
 
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.text.blocks import Blocks, Section
+from equipoise.app.text.charts import Drawn
 from equipoise.app.text.json_shape import View
 from equipoise.model.estimate import Estimate
 from equipoise.model.logged_run import Kind
@@ -33,6 +34,7 @@ class RunRecord:
     origin: Mapping[str, str]
     figures: Sequence[Picture] = ()  # in a section of their own
     step_figures: Sequence[Picture] = ()  # beside steps, which name them
+    charts: Sequence[Drawn] = ()  # in place of the figures of their names, and behind
     files: Mapping[str, str | bytes] = field(default_factory=dict[str, str | bytes])  # beside it
 
 

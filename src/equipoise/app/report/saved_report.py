@@ -10,6 +10,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from equipoise.app.text.blocks import Document, Table, document_of_text
+from equipoise.app.text.charts import Chart, Heatmap, Replay, fault_of, numbers_within
 from equipoise.app.text.escaping import texts_within
 from equipoise.io.documents.run_folder import A_RUN
 from equipoise.io.files.source_file import read_bytes
@@ -18,7 +19,7 @@ from equipoise.model.errors import InputError
 DOCUMENT = "report.json"
 # Chosen, some twenty times what the longest reports of our own have.
 BYTES = 1 << 25  # of a file
-BLOCKS, TEXTS, LETTERS = 10_000, 100_000, 5_000_000
+BLOCKS, TEXTS, LETTERS, NUMBERS = 10_000, 100_000, 5_000_000, 1_000_000
 PIXELS = 50_000_000  # of a picture within a drawing, chosen: that of a camera
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}")
 PLAIN_NAME = "a plain name of letters, digits, dashes and underscores"
@@ -78,14 +79,18 @@ def _pixels(start: str) -> int:
 
 def _check_size(document: Document, source: str) -> None:
     blocks = [block for section in document.sections for block in section.blocks]
+    charts = [block for block in blocks if isinstance(block, Chart | Replay | Heatmap)]
     texts = list(texts_within(asdict(document)))
     sizes = (("blocks", len(blocks), BLOCKS), ("texts", len(texts), TEXTS),
-             ("letters", sum(map(len, texts)), LETTERS))  # fmt: skip
+             ("letters", sum(map(len, texts)), LETTERS),
+             ("numbers of charts", sum(map(numbers_within, charts)), NUMBERS))  # fmt: skip
     for what, count, most in sizes:
         if count > most:
             raise InputError(source, f"{count} {what}", f"at most {most}")
     if any("\0" in text for text in texts):
         raise InputError(source, "a character NUL", "texts")
+    for fault in filter(None, map(fault_of, charts)):
+        raise InputError(source, f"a chart with {fault}", "as many numbers in each column")
     for table in (block for block in blocks if isinstance(block, Table)):
         odd = next((row for row in table.rows if len(row.cells) != len(table.columns)), None)
         if odd is not None:

@@ -14,7 +14,6 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.identification.assess import Assessment, AssessOptions, assess
 from equipoise.procedure.identification.drift_metrics import OverHours, metrics_over_hours
-from equipoise.procedure.identification.record_courses import RecordCourses, step_motions
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -36,10 +35,6 @@ class AssessedPlatform(Plotted):
     def verdict(self) -> Verdict | None:
         """Return the verdict on what was required; None where nothing was."""
         return self.steps[-1].verdict
-
-    def courses(self) -> RecordCourses:
-        """Return what the figures of its report draw along the recording."""
-        return RecordCourses(steps=step_motions(self.steps, self.done.testbed))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -82,7 +82,7 @@ class Balancing(Plotted):
 
     def courses(self) -> RecordCourses:
         """Return what the figures of its report draw along the recording."""
-        return balancing_courses(self.recording, self.testbed, self.estimate, self.steps)
+        return balancing_courses(self.recording, self.testbed, self.estimate)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -25,7 +25,6 @@ from equipoise.procedure.identification.record_courses import (
     TrackedCourses,
     balancing_courses,
     fit_motions,
-    step_motions,
     tracked_courses,
 )
 from equipoise.simulation.bench import SimulatedBench
@@ -100,7 +99,6 @@ def courses_of(shown: Demonstration) -> DemoCourses:
     identified = RecordCourses(
         fit_motions(recording, bed, estimate),
         tracked_courses(recording, bed, estimate, compare=True),
-        step_motions(shown.identified, bed),
     )
-    balanced = balancing_courses(done.recording, bed, done.estimate, done.steps)
+    balanced = balancing_courses(done.recording, bed, done.estimate)
     return DemoCourses(still, tracked_courses(still, bed, estimate), identified, balanced)

@@ -24,7 +24,6 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
-from equipoise.procedure.identification.record_courses import RecordCourses, step_motions
 from equipoise.simulation.hands import SimulatedHands
 
 Show = Callable[[Step], None] | None
@@ -90,10 +89,6 @@ class ByHand:
     def verdict(self) -> Verdict | None:
         """Return the last word, if it has been said."""
         return self.balancing.verdict if self.ended else None
-
-    def courses(self) -> RecordCourses:
-        """Return what the figures of its report draw along the recordings."""
-        return RecordCourses(steps=step_motions(self.balancing.steps, self.balancing.testbed))
 
 
 def options_of(goal: Goal, rounds: int) -> HandOptions:

@@ -9,6 +9,7 @@ from typing import Annotated, Literal, TypeVar
 
 from pydantic import Field, TypeAdapter, ValidationError
 
+from equipoise.app.text.charts import Chart, Heatmap, Replay
 from equipoise.app.text.escaping import for_json
 from equipoise.app.text.numbers import typeset
 from equipoise.model.errors import InputError
@@ -122,7 +123,9 @@ class Figure:
     kind: Literal["figure"] = "figure"
 
 
-Block = Heading | Paragraph | Claim | Items | Pairs | Table | Moment | Figure
+Block = (
+    Heading | Paragraph | Claim | Items | Pairs | Table | Moment | Figure | Chart | Replay | Heatmap
+)
 Blocks = tuple[Block, ...]
 
 
@@ -147,7 +150,11 @@ class Document:
     def figures(self) -> tuple[str, ...]:
         """Names of all figures, in their order."""
         blocks = (block for section in self.sections for block in section.blocks)
-        return tuple(block.name for block in blocks if isinstance(block, Figure))
+        return tuple(
+            block.name
+            for block in blocks
+            if isinstance(block, Figure) or (isinstance(block, Chart) and block.drawing)
+        )
 
 
 def number(heading: str, unit: str = "") -> Column:

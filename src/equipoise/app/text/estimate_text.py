@@ -7,7 +7,7 @@ from equipoise.app.text.blocks import Blocks, Claim, Column, Row, Table, Tone, i
 from equipoise.app.text.numbers import fixed, interval, significant, unit_for, with_sd
 from equipoise.maths.whiteness import WHITE
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
-from equipoise.model.outcome import Trust
+from equipoise.model.outcome import OutcomeCode, Trust
 from equipoise.model.units import DEG, UM
 from equipoise.model.verdict import Verdict
 
@@ -59,8 +59,10 @@ def unobservable_items(estimate: Estimate) -> Blocks:
 
 
 def outcome_claim(estimate: Estimate) -> Claim:
-    """Return the sentence that sums an estimate up."""
-    return Claim(estimate.outcome.sentence, TONES[estimate.outcome.trust])
+    """Return the sentence that sums an estimate up; one of a part alone is no good news."""
+    tone = TONES[estimate.outcome.trust]
+    whole = estimate.outcome.code is OutcomeCode.ESTIMATED
+    return Claim(estimate.outcome.sentence, tone if whole or tone != "good" else "caution")
 
 
 def residual_line(residual: Residual | None) -> str:

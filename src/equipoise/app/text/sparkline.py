@@ -1,6 +1,7 @@
 """A course of numbers as a line of letters."""
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 BLOCKS = "▁▂▃▄▅▆▇█"
 PLAIN = "_.:-=+*#"  # for terminals whose encoding lacks blocks
@@ -10,6 +11,21 @@ def sparkline(values: Sequence[float | None], letters: str = BLOCKS) -> str:
     """Return a letter for each number from zero to the greatest; a blank for None."""
     greatest = max((value for value in values if value is not None), default=0.0)
     return "".join(" " if value is None else _letter(value, greatest, letters) for value in values)
+
+
+def above_least(values: Sequence[float | None], width: int, letters: str = BLOCKS) -> str:
+    """Return a letter for each of ``width`` parts of a course, from its least to its greatest.
+
+    A letter is of the first number of its part; a blank of a part without one.
+    """
+    known = [value for value in values if value is not None]
+    if not known:
+        return ""
+    least, parts = min(known), min(width, len(values))
+    starts = [k * len(values) // parts for k in range(parts + 1)]
+    first = (next((v for v in values[a:b] if v is not None), None)
+             for a, b in pairwise(starts))  # fmt: skip
+    return sparkline([None if v is None else v - least for v in first], letters)
 
 
 def in_columns(

@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from equipoise.app.charts.catalogue import charts_of_assessment
+from equipoise.app.charts.of_correlation import correlations_of
 from equipoise.app.figures.balancing import com_over_hours, residual_torque, torque_in_range
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.recording import swing_spectrum
@@ -30,7 +32,6 @@ from equipoise.model.estimate import COM, Estimate
 from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
 from equipoise.model.units import UM
 from equipoise.procedure.identification.assess import Assessment
-from equipoise.procedure.identification.record_courses import RecordCourses
 
 
 def output_of(reported: AssessedPlatform) -> Output:
@@ -39,7 +40,7 @@ def output_of(reported: AssessedPlatform) -> Output:
         "assess",
         document(reported),
         blocks(reported),
-        lambda: record_of(reported, reported.courses()),
+        lambda: record_of(reported),
     )
 
 
@@ -70,10 +71,10 @@ def _last_word(reported: AssessedPlatform) -> Claim:
     return Claim(reported.steps[-1].sentence) if verdict is None else verdict_claim(verdict)
 
 
-def record_of(reported: AssessedPlatform, courses: RecordCourses) -> RunRecord:
+def record_of(reported: AssessedPlatform) -> RunRecord:
     """Return the assessment as a report."""
     done = reported.done
-    shown = pictures_of_steps(reported.steps, Frame(done.testbed, motions=courses.steps))
+    shown = pictures_of_steps(reported.steps, Frame(done.testbed))
     return RunRecord(
         title="Assessment",
         requested=requested(reported),
@@ -83,11 +84,12 @@ def record_of(reported: AssessedPlatform, courses: RecordCourses) -> RunRecord:
             *findings_section(reported.findings),
             steps_section("Steps", reported.steps, shown),
             Section("What the recording proves", tables_of(reported)),
-            *estimate_sections(done.estimate),
+            *estimate_sections(done.estimate, done.testbed, *correlations_of(done.estimate)),
         ),
         origin=origin(sha256=done.recording.sha256),
         figures=list(pictures_of(reported)),
         step_figures=tuple(shown.values()),
+        charts=charts_of_assessment(done.recording, done.testbed, done.estimate),
     )
 
 

@@ -4,6 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from equipoise.app.charts.catalogue import charts_of_balancing
+from equipoise.app.charts.of_correlation import correlations_of
 from equipoise.app.figures.balancing.story import Story
 from equipoise.app.figures.catalogue import Picture, TrueCourse, of_balancing, of_tracking
 from equipoise.app.figures.estimate.step_com import Wanted
@@ -13,6 +15,7 @@ from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
 from equipoise.app.runs.balancing import Balancing, Goal, change_of, measurements
 from equipoise.app.text.before_after import change_table
 from equipoise.app.text.blocks import Blocks
+from equipoise.app.text.charts import Drawn
 from equipoise.app.text.json_document import BALANCE
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import fixed
@@ -67,9 +70,7 @@ def logged_of(done: Balancing) -> Logged:
 
 def record_of(done: Balancing, courses: RecordCourses) -> RunRecord:
     """Return the run as a report."""
-    shown = pictures_of_steps(
-        done.steps, Frame(done.testbed, wanted(done.goal), motions=courses.steps)
-    )
+    shown = pictures_of_steps(done.steps, Frame(done.testbed, wanted(done.goal)))
     return RunRecord(
         title="Balancing",
         requested=requested(done),
@@ -77,11 +78,12 @@ def record_of(done: Balancing, courses: RecordCourses) -> RunRecord:
         conclusion=(*verdict_blocks(done.verdict), *change_blocks(done)),
         sections=(
             steps_section("Steps", done.steps, shown),
-            *estimate_sections(done.estimate),
+            *estimate_sections(done.estimate, done.testbed, *correlations_of(done.estimate)),
         ),
         origin=_origin(done),
         figures=[*pictures_of_tracking(done, courses), *pictures_of(done, courses)],
         step_figures=tuple(shown.values()),
+        charts=charts_of(done, courses),
     )
 
 
@@ -116,8 +118,18 @@ def pictures_of(done: Balancing, courses: RecordCourses) -> list[Picture]:
     """Return Figs. 14 and 15."""
     if done.recording is None or courses.tracked is None:
         return []
-    story = Story(measurements(done), done.goal.target, done.goal.tolerance, true_course(done))
-    return list(of_balancing(done.recording, done.testbed, courses.tracked, story))
+    return list(of_balancing(done.recording, done.testbed, courses.tracked, story_of(done)))
+
+
+def charts_of(done: Balancing, courses: RecordCourses) -> tuple[Drawn, ...]:
+    """Return replay and charts along the recording."""
+    story = story_of(done)
+    return charts_of_balancing(done.recording, done.testbed, done.estimate, courses, story)
+
+
+def story_of(done: Balancing) -> Story:
+    """Return what stands beside the tracker's curve."""
+    return Story(measurements(done), done.goal.target, done.goal.tolerance, true_course(done))
 
 
 def true_course(done: Balancing) -> TrueCourse | None:

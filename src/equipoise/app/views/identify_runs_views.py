@@ -167,7 +167,7 @@ def record_of(done: JointIdentification) -> RunRecord:
             *findings_sections(done),
             steps_section("Steps", done.steps, {}),
             Section("Runs", tables_of(done)),
-            *estimate_sections(done.estimate),
+            *estimate_sections(done.estimate, done.testbed),
         ),
         origin=origin(**{f"sha256 of {run.name}": run.recording.sha256 for run in done.runs}),
         figures=list(pictures(done)),

@@ -1,5 +1,7 @@
 """An identification for terminal, JSON and report."""
 
+from equipoise.app.charts.catalogue import charts_of_estimate
+from equipoise.app.charts.of_correlation import correlations_of
 from equipoise.app.figures.catalogue import of_estimate
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.build import estimate_sections, findings_section, steps_section
@@ -57,7 +59,7 @@ def logged_of(done: Identification, is_file: bool = True) -> Logged:
 
 def record_of(done: Identification, courses: RecordCourses) -> RunRecord:
     """Return the identification as a report."""
-    shown = pictures_of_steps(done.steps, Frame(done.testbed, at_home=True, motions=courses.steps))
+    shown = pictures_of_steps(done.steps, Frame(done.testbed, at_home=True))
     return RunRecord(
         title="Mass properties from a recording",
         requested={"recording": done.recording.source, "method": done.estimate.method},
@@ -66,9 +68,15 @@ def record_of(done: Identification, courses: RecordCourses) -> RunRecord:
         sections=(
             *findings_section(done.findings),
             steps_section("Steps", done.steps, shown),
-            *estimate_sections(done.estimate, *plan_blocks(done.plan, done.estimate)),
+            *estimate_sections(
+                done.estimate,
+                done.testbed,
+                *plan_blocks(done.plan, done.estimate),
+                *correlations_of(done.estimate),
+            ),
         ),
         origin=origin(sha256=done.recording.sha256),
-        figures=list(of_estimate(done.recording, done.testbed, done.estimate, courses)),
+        figures=list(of_estimate(done.recording, done.estimate, courses)),
         step_figures=tuple(shown.values()),
+        charts=charts_of_estimate(done.recording, done.testbed, done.estimate, courses),
     )

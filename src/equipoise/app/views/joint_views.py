@@ -74,12 +74,10 @@ def conclusion(done: InTwoLevels, masses: Balancing) -> Blocks:
 def record_of(done: InTwoLevels, masses: Balancing, of: dict[str, str]) -> RunRecord:
     """Return the session as a report."""
     first, courses = done.by_hand.balancing, masses.courses()
-    by_hand = pictures_of_steps(
-        first.steps, Frame(first.testbed, wanted(first.goal), motions=done.by_hand.courses().steps)
-    )
+    by_hand = pictures_of_steps(first.steps, Frame(first.testbed, wanted(first.goal)))
     by_masses = pictures_of_steps(
         masses.steps,
-        Frame(masses.testbed, wanted(masses.goal), motions=courses.steps),
+        Frame(masses.testbed, wanted(masses.goal)),
         len(first.steps) + 1,
     )
     return RunRecord(
@@ -90,7 +88,7 @@ def record_of(done: InTwoLevels, masses: Balancing, of: dict[str, str]) -> RunRe
         sections=(
             steps_section("Steps by hand", first.steps, by_hand),
             steps_section("Steps of the masses", masses.steps, by_masses),
-            *estimate_sections(masses.estimate),
+            *estimate_sections(masses.estimate, masses.testbed),
         ),
         origin=origin(**of),
         figures=pictures_of(done, masses, courses),

@@ -17,7 +17,6 @@ from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import verdict_blocks
 from equipoise.app.views.balance_views import change_blocks, requested, wanted
 from equipoise.model.arrays import Vector3
-from equipoise.procedure.identification.record_courses import RecordCourses
 
 TRIAL = (
     "Manual balancing by trial and error is reported to take hours and to leave some 1e-2 N m "
@@ -40,7 +39,7 @@ def output_of(done: ByHand, of: dict[str, str]) -> Output:
         "balance",
         document(done, of),
         blocks(done),
-        lambda: record_of(done, of, done.courses()),
+        lambda: record_of(done, of),
         logged_of(done),
     )
 
@@ -73,13 +72,11 @@ def document(done: ByHand, of: dict[str, str]) -> View:
     })  # fmt: skip
 
 
-def record_of(done: ByHand, of: dict[str, str], courses: RecordCourses) -> RunRecord:
+def record_of(done: ByHand, of: dict[str, str]) -> RunRecord:
     """Return the run as a report."""
     balancing = done.balancing
     bed, bench = balancing.testbed, "simulated hands" if balancing.truths else "a person's hands"
-    shown = pictures_of_steps(
-        balancing.steps, Frame(bed, wanted(balancing.goal), motions=courses.steps)
-    )
+    shown = pictures_of_steps(balancing.steps, Frame(bed, wanted(balancing.goal)))
     return RunRecord(
         title="Balancing by hand",
         requested=requested(balancing) | {"bench": bench, "effort": effort(done)},
@@ -87,7 +84,7 @@ def record_of(done: ByHand, of: dict[str, str], courses: RecordCourses) -> RunRe
         conclusion=(*conclusion(done), *change_blocks(balancing)),
         sections=(
             steps_section("Steps", balancing.steps, shown),
-            *estimate_sections(balancing.estimate),
+            *estimate_sections(balancing.estimate, bed),
         ),
         origin=origin(**of),
         figures=pictures_of(done),

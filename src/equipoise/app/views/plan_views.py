@@ -56,9 +56,9 @@ def what_to_do(done: Planning) -> Blocks:
 
 
 def limits_of(done: Planning) -> Blocks:
-    """Return what stays unobservable, and how far both manoeuvres go."""
+    """Return what stays unobservable on the expected platform, and how far both manoeuvres go."""
     return (
-        *reason_items(done.planned.unobservable),
+        *reason_items(done.planned.expected.unobservable),
         Paragraph(limits_line(done.usual, done.request, "The usual manoeuvre"), "quiet"),
         Paragraph(limits_line(done.planned, done.request, "The plan")),
     )

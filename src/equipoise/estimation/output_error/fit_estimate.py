@@ -37,12 +37,12 @@ from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import inverse_where, lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Series
 from equipoise.model.estimate import BODY, COM, END, Estimate, Parameter, Residual
 from equipoise.model.outcome import Outcome, OutcomeCode, outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
-from equipoise.model.recording import Recording
+from equipoise.model.recording import Recording, Samples
 from equipoise.model.torque_terms import GROUPS
 
 DRIFTS, THERMALS = GROUPS["drift"], GROUPS["thermal"]
@@ -71,7 +71,14 @@ def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
         lag_one(left),
         portmanteau(left),
         spectral_peak=spectral_peak(left),
+        attitude=_rows_left(fitted.problem.recording.attitude, at.left_q, measurements.attitude_sd),
+        rate=_rows_left(fitted.problem.recording.rate, at.left_w, measurements.rate_sd),
     )
+
+
+def _rows_left(rows: Samples | None, left: Series, sd: float) -> Samples | None:
+    """Return the residuals (n, 3) of a sensor's rows in SI; ``left`` is in units of ``sd``."""
+    return Samples(rows.t, left * sd) if rows is not None and len(rows) else None
 
 
 def leaves_more(residual: Residual) -> bool:

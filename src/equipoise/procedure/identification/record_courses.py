@@ -1,15 +1,14 @@
 """Estimates along the records that they were made of: motions and courses for figures.
 
     fit        the motion that the testbed predicts, and the one that the estimate predicts
-    steps      the motion that the estimate of a step predicts along the step's own record
     tracked    angular velocity and centre of mass as the tracker (Kalman filter) has them
 
 An identification by the tracker has its courses already: the filter does not run again for them.
 Along other records it starts from the testbed's centre of mass and the inertia of an estimate.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import TypeGuard
 
 import numpy as np
@@ -24,9 +23,9 @@ from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.procedure.identification.fitted_motion import FittedMotion, fitted_motion
 
 TRACKER = "tracker"
-MOST = 40  # steps; chosen: a run that holds for hours has thousands
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,7 +33,8 @@ class FitMotions:
     """The motion along a record, before and after the fit."""
 
     before: PredictedMotion  # of the testbed's description
-    after: PredictedMotion  # of the estimate
+    after: PredictedMotion  # of the estimate, from its first state on
+    fitted: FittedMotion  # at the rows of camera and gyro
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,55 +53,43 @@ class RecordCourses:
 
     fit: FitMotions | None = None
     tracked: TrackedCourses | None = None
-    steps: Mapping[Step, PredictedMotion] = field(default_factory=dict[Step, PredictedMotion])
 
 
 def identification_courses(
     recording: Recording, testbed: Testbed, steps: Sequence[Step]
 ) -> RecordCourses:
     """Return the courses of an identification; the last step has the estimate that counts."""
-    estimate, motions = steps[-1].estimate, step_motions(steps, testbed)
+    estimate = steps[-1].estimate
     if estimate is None:
-        return RecordCourses(steps=motions)
+        return RecordCourses()
     if estimate.method != TRACKER:
-        return RecordCourses(fit_motions(recording, testbed, estimate), steps=motions)
+        return RecordCourses(fit_motions(recording, testbed, estimate))
     if estimate.course is None or estimate.rate_course is None:
-        return RecordCourses(steps=motions)
+        return RecordCourses()
     standing = standing_course(estimate.course, recording, testbed)
     tracked = TrackedCourses(estimate.rate_course, estimate.course, standing)
     masses = recording.masses
     if masses is not None and np.any(np.ptp(masses.values, axis=0)):
         tracked = replace(tracked, ignored=com_course(_track(recording, testbed, None, "ignored")))
-    return RecordCourses(tracked=tracked, steps=motions)
+    return RecordCourses(tracked=tracked)
 
 
 def balancing_courses(
-    recording: Recording | None, testbed: Testbed, estimate: Estimate | None, steps: Sequence[Step]
+    recording: Recording | None, testbed: Testbed, estimate: Estimate | None
 ) -> RecordCourses:
     """Return the courses of a balancing run; ``recording`` has all that the bench gave."""
-    motions = step_motions(steps, testbed)
     if not has_attitude(recording):
-        return RecordCourses(steps=motions)
-    return RecordCourses(tracked=tracked_courses(recording, testbed, estimate), steps=motions)
+        return RecordCourses()
+    return RecordCourses(tracked=tracked_courses(recording, testbed, estimate))
 
 
 def fit_motions(recording: Recording, testbed: Testbed, estimate: Estimate) -> FitMotions | None:
     """Return the motions of a fit; None where the estimate has no initial state."""
     if not predicts_motion(estimate):
         return None
-    return FitMotions(before(recording, testbed), predict(recording, testbed, estimate))
-
-
-def step_motions(steps: Sequence[Step], testbed: Testbed) -> Mapping[Step, PredictedMotion]:
-    """Return the motion that each fit of an attitude record predicts, of the first ``MOST``."""
-    found: dict[Step, PredictedMotion] = {}
-    for step in steps:
-        estimate, recording = step.estimate, step.recording
-        if len(found) == MOST:
-            break
-        if step.kind == "estimate" and predicts_motion(estimate) and has_attitude(recording):
-            found[step] = predict(recording, testbed, estimate)
-    return found
+    after = predict(recording, testbed, estimate)
+    fitted = fitted_motion(recording, testbed, estimate, after)
+    return FitMotions(before(recording, testbed), after, fitted)
 
 
 def predicts_motion(estimate: Estimate | None) -> TypeGuard[Estimate]:

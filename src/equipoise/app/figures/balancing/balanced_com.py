@@ -20,7 +20,7 @@ CAPTION = (
 @styled
 def draw(course: Course, recording: Recording, story: Story) -> Figure:
     """Return the figure."""
-    figure, column = panels(3, height=1.5)
+    figure, column = panels(3, height=1.1)
     draw_com(column, course, recording)
     for i, axes in enumerate(column):
         mark_story(axes, i, story, "target")
@@ -43,3 +43,4 @@ def mark_story(axes: Axes, i: int, story: Story, wanted: str) -> None:
     if story.truth is not None:
         t, y = story.truth[0], story.truth[1][:, i] / UM
         axes.plot(t, y, "x", color="black", markersize=4.5, zorder=6, label="truth")
+        include(axes, float(y.min()), float(y.max()))

@@ -3,7 +3,6 @@
 from equipoise.app.figures.balancing.balanced_com import mark_story
 from equipoise.app.figures.balancing.story import Story
 from equipoise.app.figures.base.canvas import Figure
-from equipoise.app.figures.base.com_panels import include
 from equipoise.app.figures.base.strokes import panels, with_legend
 from equipoise.app.figures.base.style import AXES, styled
 from equipoise.model.units import UM
@@ -18,13 +17,10 @@ CAPTION = (
 @styled
 def draw(story: Story) -> Figure:
     """Return the figure."""
-    figure, column = panels(3, height=1.5)
+    figure, column = panels(3, height=1.1)
     for i, axes in enumerate(column):
         middle, near = story.target[i] / UM, story.tolerance[i] / UM
         axes.set_ylim(middle - 2 * near, middle + 2 * near)
         mark_story(axes, i, story, "target")
-        if story.truth is not None:
-            y = story.truth[1][:, i] / UM
-            include(axes, float(y.min()), float(y.max()))
         axes.set_ylabel(f"$r_{AXES[i]}$, um")
     return with_legend(figure, column[0])

@@ -2,7 +2,9 @@
 
 import numpy as np
 
+from equipoise.app.figures.base.by_name import plain_log
 from equipoise.app.figures.base.canvas import Figure, laid_out
+from equipoise.app.figures.base.strokes import with_legend
 from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
 from equipoise.assessment.metrics.allan import Wander
 from equipoise.model.units import MINUTE, UM
@@ -13,14 +15,13 @@ CAPTION = (
     "standard deviations), and its Allan deviation. Dashed: Allan deviation of "
     "estimation errors alone."
 )
+MARKERS = "os^"  # of x, y and z: a print in grey shows them alone
 
 
 @styled
 def draw(hours: OverHours, wander: Wander) -> Figure:
     """Return the figure."""
-    from matplotlib.ticker import NullLocator, StrMethodFormatter
-
-    figure = laid_out(WIDE, 5.4)
+    figure = laid_out(WIDE, 3.7)
     grid = figure.subplot_mosaic([["x", "allan"], ["y", "allan"], ["z", "allan"]])
     for i, name in enumerate(AXES):
         axes = grid[name]
@@ -33,14 +34,12 @@ def draw(hours: OverHours, wander: Wander) -> Figure:
     axes = grid["allan"]
     for i, name in enumerate(AXES):
         error = wander.deviation[:, i] * np.minimum(wander.error, 0.9) / UM
-        axes.errorbar(wander.span, wander.deviation[:, i] / UM, error, color=XYZ[i], marker="o",
-                      capsize=2, label=name)  # fmt: skip
+        axes.errorbar(wander.span, wander.deviation[:, i] / UM, error, color=XYZ[i],
+                      marker=MARKERS[i], capsize=2, label=name)  # fmt: skip
         axes.plot(wander.span, wander.measurements_alone[:, i] / UM, color=XYZ[i], linestyle="--")
-    axes.set(xscale="log", yscale="log", xlabel="averaging time, s", ylabel="Allan deviation, um")
-    axes.set_xticks(wander.span, [f"{span:g}" for span in wander.span])
-    axes.xaxis.set_minor_locator(NullLocator())
-    for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
-        which(StrMethodFormatter("{x:g}"))
-    axes.legend()
+    axes.set(xlabel="averaging time, s", ylabel="Allan deviation, um")
+    plain_log(axes, "x")
+    plain_log(axes, "y")
+    with_legend(figure, axes)
     figure.align_ylabels([grid[name] for name in AXES])
     return figure

@@ -1,8 +1,8 @@
 """Where the masses stood in the process of automatic balancing (Ivanov 2021 Fig. 15)."""
 
 from equipoise.app.figures.base.canvas import Figure
-from equipoise.app.figures.base.strokes import course, panels
-from equipoise.app.figures.base.style import XYZ, styled
+from equipoise.app.figures.base.strokes import course, dash_last, panels
+from equipoise.app.figures.base.style import AXES, SEVERAL, styled
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.model.units import MM
@@ -14,18 +14,18 @@ CAPTION = "Displacements of the balancing masses from home, mm; dotted: ends of 
 def draw(recording: Recording, testbed: Testbed) -> Figure:
     """Return the figure: one panel for each body axis along which masses move."""
     tracks = recording.masses
-    groups = [g for axis in range(3) if (g := _along(axis, recording, testbed))]
-    figure, column = panels(max(len(groups), 1), height=1.3)
-    for axes, group in zip(column, groups, strict=False):
+    groups = [(axis, g) for axis in range(3) if (g := _along(axis, recording, testbed))]
+    figure, column = panels(max(len(groups), 1), height=0.95)
+    for axes, (along, group) in zip(column, groups, strict=False):
         assert tracks is not None
         for k, (of, mass) in enumerate(group):
             y = tracks.values[:, of] / MM
-            course(axes, tracks.t, y, XYZ[k % len(XYZ)], mass.name)
+            course(axes, tracks.t, y, SEVERAL[k % len(SEVERAL)], mass.name)
+            dash_last(axes, k)
             for end in mass.travel:
                 axes.axhline(end / MM, color="#888888", linestyle=":", linewidth=0.9)
-        axes.set_ylabel("mm")
+        axes.set_ylabel(f"along {AXES[along]}, mm")
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    column[0].set_title("displacement from home")
     return figure
 
 

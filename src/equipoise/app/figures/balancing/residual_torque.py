@@ -18,7 +18,7 @@ CAPTION = (
 @styled
 def draw(response: NoiseCorrectedSeries) -> Figure:
     """Return the figure."""
-    figure, column = panels(3, height=1.2)
+    figure, column = panels(3, height=1.0)
     noise = BAND * response.noise / np.sqrt(3) / UN_M
     for i, axes in enumerate(column):
         axes.axhspan(-noise, noise, color="black", alpha=0.12, linewidth=0, label="noise")

@@ -23,7 +23,7 @@ def draw(story: Story) -> Figure:
     from matplotlib.ticker import MaxNLocator
 
     off = story.off_target()
-    figure, column = panels(3, height=1.4)
+    figure, column = panels(3, height=1.1)
     for i, axes in enumerate(column):
         near = story.tolerance[i] / UM
         axes.set_yscale("symlog", linthresh=near)

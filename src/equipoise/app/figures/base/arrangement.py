@@ -1,4 +1,4 @@
-"""The places of panels on a figure, and of the labels beside them, measured once or twice.
+"""The places of panels on a figure, and of the labels beside them, measured a few times.
 
 Each column is as wide, and each row as high, as what is beside its panels leaves. Labels of a
 column's vertical axes stand below each other, and so do those of a row. matplotlib's own way
@@ -15,6 +15,7 @@ from equipoise.model.arrays import Floats
 
 PAD = 3 / 72  # inches around each panel and what is beside it, chosen: as matplotlib has it
 POINT = 1 / 72  # inches
+AGAIN = 3  # times at most, chosen: a panel of another size may have other ticks, longer or shorter
 
 
 class Beside(NamedTuple):
@@ -38,15 +39,26 @@ def arrange(figure: Figure) -> None:
     heights = [legend.get_window_extent(renderer).height for legend in figure.legends]
     head = sum(height / figure.dpi + 2 * PAD for height in heights)
     place(figure, [GUESSED] * len(figure.axes), head)
-    numbers = _numbers(figure)
-    around = _placed(figure, renderer, head)
-    if _numbers(figure) != numbers:  # a panel of another size may have other ticks
+    numbers, around = _numbers(figure), _placed(figure, renderer, head)
+    for _ in range(AGAIN):
+        if numbers == (numbers := _numbers(figure)):
+            break
         around = _placed(figure, renderer, head)
+    hold_ticks(figure)
     for axes, ticks in zip(figure.axes, around, strict=True):
         axes.apply_aspect()  # as drawing does
         width, height = axes.get_position().size * figure.get_size_inches()
         axes.yaxis.set_label_coords(-(ticks.left + axes.yaxis.labelpad * POINT) / width, 0.5)
         axes.xaxis.set_label_coords(0.5, -(ticks.bottom + axes.xaxis.labelpad * POINT) / height)
+
+
+def hold_ticks(figure: Figure) -> None:
+    """Keep the ticks as they were measured; drawn at other dots an inch, they might be others."""
+    from matplotlib.ticker import FixedLocator
+
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(FixedLocator([float(tick) for tick in axis.get_majorticklocs()]))
 
 
 def _placed(figure: Figure, renderer: Any, head: float) -> list[Beside]:

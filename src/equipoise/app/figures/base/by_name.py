@@ -1,6 +1,7 @@
 """One line a name: the frame of figures that compare methods or laws."""
 
 from collections.abc import Sequence
+from typing import Literal
 
 from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
 from equipoise.app.figures.base.style import WIDE
@@ -19,12 +20,12 @@ def named_axes(names: Sequence[str], xlabel: str) -> tuple[Figure, Axes]:
     return figure, axes
 
 
-def plain_log(axes: Axes) -> None:
-    """Scale x logarithmically, with plain numbers at 1, 2, 5, 10 and so on."""
+def plain_log(axes: Axes, which: Literal["x", "y"]) -> None:
+    """Scale x or y logarithmically, with plain numbers at 1, 2, 5, 10 and so on."""
     from matplotlib.ticker import LogLocator, NullLocator
 
-    axes.set_xscale("log")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.margins(x=0.03)
+    axis = axes.xaxis if which == "x" else axes.yaxis
+    axes.set(**{f"{which}scale": "log"})
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter("{x:g}")

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
-from equipoise.app.figures.base.style import BAND, WIDE
+from equipoise.app.figures.base.style import BAND, DASHES, SEVERAL, WIDE
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.recording import Recording, Samples, runs
 from equipoise.model.units import UM
@@ -43,6 +43,17 @@ def line(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> No
         gap = np.flatnonzero(np.diff(t) > 10 * np.median(np.diff(t)))
         t, y = np.insert(t, gap + 1, t[gap]), np.insert(y, gap + 1, np.nan)
     axes.plot(t, y, color=colour, label=label or None)
+
+
+def line_of_several(axes: Axes, k: int, t: Series1, y: Series1, label: str) -> None:
+    """Draw the k-th of several lines of a panel, with a colour and dashes of its own."""
+    line(axes, t, y, SEVERAL[k % len(SEVERAL)], label)
+    dash_last(axes, k)
+
+
+def dash_last(axes: Axes, k: int) -> None:
+    """Give the line that was drawn last the k-th dashes."""
+    axes.lines[-1].set_linestyle(DASHES[k % len(DASHES)])
 
 
 def course(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:

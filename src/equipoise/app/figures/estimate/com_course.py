@@ -17,7 +17,7 @@ CAPTION = (
 def draw(course: Course, method: str, recording: Recording) -> Figure:
     """Return the figure of a course that has the centre of mass."""
     where = [course.names.index(name) for name in COM]
-    figure, column = panels(3, height=1.25)
+    figure, column = panels(3, height=1.0)
     com = Course(COM, course.t, course.values[:, where], course.sd[:, where])
     draw_com(column, com, recording, method)
     return with_legend(figure, column[0])

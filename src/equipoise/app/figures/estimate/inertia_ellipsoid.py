@@ -45,7 +45,9 @@ def draw(body: MassProperties) -> Figure:
     axes.plot(*(body.com[:, None] / MM), "o", color=ORANGE, label="centre of mass")
     axes.plot([0.0], [0.0], [0.0], "x", color=GREY, label="P")
     for letter in AXES:
-        getattr(axes, f"set_{letter}label")(f"{letter}, mm")
+        pad = 2.0 if letter == "z" else 11.0  # numbers of x and y slant towards their labels
+        getattr(axes, f"set_{letter}label")(f"{letter}, mm", labelpad=pad)
     axes.set_aspect("equal")
+    axes.locator_params(nbins=4)
     axes.legend(loc="upper right")
     return figure

@@ -24,8 +24,8 @@ def draw(
     truth: tuple[Series1, Series3] | None = None,
 ) -> Figure:
     """Return the figure; the centres of mass are with the masses as they stand."""
-    figure, grid = panel_grid(3, 2, height=1.35)
-    for k, (course, title) in enumerate(((fed, "(a) move fed"), (ignored, "(b) move ignored"))):
+    figure, grid = panel_grid(3, 2, height=1.0)
+    for k, (course, title) in enumerate(((fed, "(a) with feed-forward"), (ignored, "(b) without"))):
         column = [row[k] for row in grid]
         draw_com(column, course, recording)
         column[0].set_title(title)

@@ -20,7 +20,7 @@ CAPTION_OF_BALANCING = (
     "the verdict of each run (dots): median, quartiles, whiskers within 1.5 "
     "interquartile ranges. Dashed: target, where it lies within the panel."
 )
-HIGH = 2.0  # inches of a row, chosen
+HIGH = 1.35  # inches of a row, chosen
 ROWS = (COM, INERTIA[:3], INERTIA[3:])
 BOX, JOINT = 0.0, 1.0  # places along x
 
@@ -66,4 +66,4 @@ def _panel(axes: Axes, name: str, boxed: Boxed, label: str) -> None:
     axes.axhline(boxed.dashed / unit.size, color=GREY, linestyle="--", linewidth=0.9,
                  label=label)  # fmt: skip
     axes.set_xticks([])
-    axes.set_ylabel(f"{name}, {unit.name}")
+    axes.set_title(f"{name}, {unit.name}")

@@ -3,10 +3,17 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from equipoise.app.figures.base.canvas import Axes, Figure, laid_out
-from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
+from equipoise.app.figures.base.style import AXES, BAND, GREY, WIDE, XYZ, styled
 from equipoise.model.arrays import Vector3
 from equipoise.model.units import UM
+
+BARLESS = (
+    " Grey, without bar: the data do not determine the value, as where the scale of inertia and "
+    "centre of mass is open."
+)
 
 
 class Mark(NamedTuple):
@@ -24,13 +31,14 @@ class Wanted(NamedTuple):
     tolerance: Vector3  # m
 
 
-def caption(at_home: bool, wanted: Wanted | None) -> str:
+def caption(at_home: bool, marks: Sequence[Mark], wanted: Wanted | None) -> str:
     """Return what the figure shows."""
     shaded = "" if wanted is None else "; shaded: target with tolerance"
+    barless = "" if all(np.isfinite(mark.sd).all() for mark in marks) else BARLESS
     return (
         "Centre of mass with the masses "
         f"{('at home' if at_home else 'in their present positions')}, um in body axes, "
-        f"with bars of two standard deviations{shaded}."
+        f"with bars of two standard deviations{shaded}.{barless}"
     )
 
 
@@ -54,6 +62,7 @@ def draw(marks: Sequence[Mark], wanted: Wanted | None) -> Figure:
 def _marks(axes: Axes, i: int, marks: Sequence[Mark]) -> None:
     for k, mark in enumerate(marks):
         axes.errorbar(
-            mark.com[i] / UM, k, xerr=BAND * mark.sd[i] / UM, fmt="o", color=XYZ[i],
+            mark.com[i] / UM, k, xerr=BAND * mark.sd[i] / UM, fmt="o",
+            color=XYZ[i] if np.isfinite(mark.sd[i]) else GREY,
             markerfacecolor="white", markersize=5, elinewidth=1.2, capsize=2.5,
         )  # fmt: skip

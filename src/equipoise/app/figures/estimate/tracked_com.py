@@ -20,7 +20,7 @@ CAPTION = (
 @styled
 def draw(course: Course, recording: Recording, truth: Vector3 | None = None) -> Figure:
     """Return the figure; ``truth`` (m) is drawn when the bench is simulated."""
-    figure, column = panels(3, height=1.25)
+    figure, column = panels(3, height=1.0)
     draw_com(column, course, recording)
     if truth is not None:
         draw_truth(column, course.t[[0, -1]], np.array([truth, truth]))

@@ -38,7 +38,7 @@ def pictures_of(done: IvanovRun) -> Iterator[Picture]:
     first, tracked = done.fits[0], done.tracked
     predicted = motions(first)
     if predicted is not None:
-        yield from of_fit(first.recording, first.testbed, predicted)
+        yield from of_fit(first.recording, predicted)
     yield box_picture(done.fits)
     moves = changes(((MOVED_AT, MOVE),))
     drawn = moved_attitude.draw(tracked.recording, moves)

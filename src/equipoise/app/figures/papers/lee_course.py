@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.app.figures.base.canvas import Axes, Figure
-from equipoise.app.figures.base.strokes import line, panel_grid, with_legend
-from equipoise.app.figures.base.style import XYZ, styled
+from equipoise.app.figures.base.strokes import line_of_several, panel_grid, with_legend
+from equipoise.app.figures.base.style import SEVERAL, styled
 from equipoise.model.arrays import Floats, Series, Series1
 
 TITLES = ("as printed", "corrected")
@@ -27,9 +27,9 @@ def draw_estimates(
     """Return estimates of both sides with the truth dashed; ``air`` is shown around the truth."""
     figure, grid = beside()
     for axes, side, title in zip(grid, sides, TITLES, strict=True):
-        for k, (label, colour) in enumerate(zip(labels, XYZ, strict=False)):
-            line(axes, side.t, side.values[:, k], colour, label)
-            axes.axhline(truth[k], color=colour, linestyle="--", linewidth=0.9)
+        for k, label in enumerate(labels):
+            line_of_several(axes, k, side.t, side.values[:, k], label)
+            axes.axhline(truth[k], color=SEVERAL[k], linestyle="--", linewidth=0.9)
         axes.set(title=title, ylim=(float(truth.min()) - air, float(truth.max()) + air))
     grid[0].set_ylabel(ylabel)
     return with_legend(figure, grid[0])
@@ -44,8 +44,8 @@ def draw_indices(
     both = np.concatenate([side.values[np.isfinite(side.values)] for side in sides])
     low, high = float(both.min()), float(both.max())
     for axes, side, title in zip(grid, sides, TITLES, strict=True):
-        for k, (label, colour) in enumerate(zip(labels, XYZ, strict=False)):
-            line(axes, side.t, side.values[:, k], colour, label)
+        for k, label in enumerate(labels):
+            line_of_several(axes, k, side.t, side.values[:, k], label)
         axes.set(title=title, yscale="log" if wide else "linear")
         axes.set_ylim(0.7 * low if wide else 0.0, (1.4 if wide else 1.05) * high)
     grid[0].set_ylabel(ylabel)

@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from equipoise.app.figures.base.canvas import Figure
-from equipoise.app.figures.base.strokes import line, panels, with_legend
-from equipoise.app.figures.base.style import BLUE, GREEN, GREY, ORANGE, PURPLE, styled
+from equipoise.app.figures.base.strokes import line_of_several, panels, with_legend
+from equipoise.app.figures.base.style import GREY, styled
 from equipoise.model.arrays import Series, Series1
 
-COLOURS = (BLUE, ORANGE, GREEN, PURPLE)
 Span = tuple[float, float] | None
 
 
@@ -28,8 +27,8 @@ def draw(shown: Shown, near: Span) -> Figure:
     figure, (axes,) = panels(1, height=2.6)
     if near is not None:
         axes.axvspan(*near, color="#cccccc", alpha=0.45, linewidth=0, zorder=0)
-    for column, label, colour in zip(shown.values.T, shown.labels, COLOURS, strict=False):
-        line(axes, shown.t, column, colour, label)
+    for k, (column, label) in enumerate(zip(shown.values.T, shown.labels, strict=True)):
+        line_of_several(axes, k, shown.t, column, label)
     if shown.mark is not None:
         axes.axhline(shown.mark, color=GREY, linestyle="--", linewidth=0.9)
         axes.set_ylim(bottom=0.0)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from equipoise.app.figures.base.canvas import Axes, Figure
-from equipoise.app.figures.base.strokes import line, panels, with_legend
+from equipoise.app.figures.base.strokes import line_of_several, panels, with_legend
 from equipoise.app.figures.base.style import styled
 from equipoise.app.figures.estimate.attitude_fit import COMPONENTS
 from equipoise.maths.attitude import continuous
@@ -25,8 +25,8 @@ def draw(recording: Recording, moves: Marked) -> Figure:
     assert rows is not None
     q = continuous(rows.values)
     figure, (axes,) = panels(1, height=HIGH)
-    for i, name, colour in COMPONENTS:
-        line(axes, rows.t, q[:, i], colour, name)
+    for i, name in enumerate(COMPONENTS):
+        line_of_several(axes, i, rows.t, q[:, i], name)
     axes.set(ylabel="quaternion", ylim=(-1.08, TOP), yticks=np.linspace(-1, 1, 5))
     for t, change in moves:
         _mark(axes, rows.t, q, t, change)

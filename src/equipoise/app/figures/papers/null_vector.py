@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from equipoise.app.figures.base.canvas import Axes, Figure
-from equipoise.app.figures.base.strokes import line, panel_grid, with_legend
-from equipoise.app.figures.base.style import GREY, PURPLE, XYZ, styled
+from equipoise.app.figures.base.strokes import line, line_of_several, panel_grid, with_legend
+from equipoise.app.figures.base.style import GREY, PURPLE, styled
 from equipoise.app.figures.catalogue import Picture
 from equipoise.model.units import DEG, UM
 from equipoise.study.papers.null_vector import Course, NullVector
@@ -44,8 +44,8 @@ def fill(panels: Sequence[Axes], course: Course) -> None:
     """Draw one balancing."""
     momentum, offset, angle = panels
     line(momentum, course.t, np.linalg.norm(course.momentum, axis=1), PURPLE)
-    for values, axis, colour in zip(course.offset.T, "xyz", XYZ, strict=True):
-        line(offset, course.t, values / UM, colour, f"${axis}$")
+    for k, (values, axis) in enumerate(zip(course.offset.T, "xyz", strict=True)):
+        line_of_several(offset, k, course.t, values / UM, f"${axis}$")
     for panel in panels:
         panel.axhline(0.0, color=GREY, linewidth=0.6)
     line(angle, course.t, course.angle / DEG, PURPLE)

@@ -17,7 +17,7 @@ CAPTION = (
 def draw(recording: Recording, up: Vector3 | None) -> Figure:
     """Return the figure; ``up`` is the body axis whose tilt is shown."""
     parts = panels_of_motion(recording, up)
-    figure, column = panels(max(len(parts), 1), height=0.85)
+    figure, column = panels(max(len(parts), 1), height=0.75)
     for axes, part in zip(column, parts, strict=False):
         part(axes)
     figure.align_ylabels()

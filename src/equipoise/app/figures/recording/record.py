@@ -24,7 +24,7 @@ LEFT, RIGHT = 0.135, 0.895  # of the page
 LABELS = -0.092  # of a panel's width: labels of the vertical axes stand under each other
 HEAD = 0.9  # inches above the panels: title, numbers of the marks
 FOOT = 0.4  # inches below the list: what its signs mean
-BETWEEN = 0.55  # inches between panels and list: the time axis
+BETWEEN = 0.62  # inches between panels and list: the time axis
 PANEL = 0.85  # inches: panels are never lower than this; then the list is cut
 
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from equipoise.app.figures.base.canvas import Axes
-from equipoise.app.figures.base.strokes import course, dots
+from equipoise.app.figures.base.strokes import course, dash_last, dots
 from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ
 from equipoise.app.text.escaping import for_figure
 from equipoise.assessment.findings.channel_content import GAP
@@ -21,12 +21,13 @@ Panel = Callable[[Axes], None]
 FEWEST = 3  # rows for a rate
 RARE = 0.005  # share of values at either end that may be drawn beyond the range (chosen)
 WIDENED = 0.5  # of the range of the others, within which they are not beyond it (chosen)
+LEAST = 2.0  # mm, chosen: masses that rest are not drawn as if they moved by hairs
 TINY = 1e-9  # deg, deg/s: a range is never empty
 # By channel: what is measured of a vector, and the unit in which it is drawn.
 VECTORS = {
-    "accelerometer": ("accelerometer,\nm/s2", 1.0),
+    "accelerometer": ("specific\nforce, m/s2", 1.0),
     "sun": ("sun sensor,\nunit vector", 1.0),
-    "field": ("magnetometer,\nuT", UT),
+    "field": ("magnetic\nfield, uT", UT),
 }
 DECADES = 8.0  # ratio of the longest spacing to the shortest, from which its scale is logarithmic
 
@@ -37,10 +38,10 @@ def panels_of(recording: Recording, up: Vector3 | None) -> list[Panel]:
     attitude, rate = _enough(recording.attitude), _enough(recording.rate)
     if attitude is not None:
         rough = outlying_attitudes(attitude).rough
-        found.append(_by_axis(attitude.t, rough, "attitude\nroughness, deg"))
+        found.append(_by_axis(attitude.t, rough, "attitude\nroughness,\ndeg"))
     if rate is not None:
         rough = outlying_rates(rate).rough
-        found.append(_by_axis(rate.t, rough, "gyro\nroughness, deg/s"))
+        found.append(_by_axis(rate.t, rough, "gyro\nroughness,\ndeg/s"))
     return [*found, _spacing(attitude, rate)]
 
 
@@ -67,7 +68,7 @@ def _enough(channel: Samples | None) -> Samples | None:
 def _tilt(attitude: Samples, up: Vector3 | None) -> Panel:
     name = most_upright(attitude)
     axis = BODY_AXES[name] if up is None else up
-    of = f"tilt of {name}, deg" if up is None else "tilt, deg"
+    of = f"tilt\nof {name}, deg" if up is None else "tilt, deg"
 
     def draw(axes: Axes) -> None:
         dots(axes, attitude.t, tilt(attitude.values, axis) / DEG, BLUE)
@@ -80,7 +81,7 @@ def _heading_rate(attitude: Samples) -> Panel:
     def draw(axes: Axes) -> None:
         t, rate = heading_rate(attitude)
         _dots_within(axes, t, [rate / DEG], [BLUE], [""])
-        axes.set_ylabel("heading rate,\ndeg/s")
+        axes.set_ylabel("heading\nrate, deg/s")
 
     return draw
 
@@ -121,6 +122,9 @@ def _masses(masses: Samples, names: tuple[str, ...]) -> Panel:
     def draw(axes: Axes) -> None:
         for i, name in enumerate(names):
             course(axes, masses.t, masses.values[:, i] / MM, SIX[i % len(SIX)], for_figure(name))
+            dash_last(axes, i)
+        low, high = axes.get_ylim()
+        axes.set_ylim(min(low, 0.5 * (low + high - LEAST)), max(high, 0.5 * (low + high + LEAST)))
         axes.set_ylabel("masses, mm")
         _legend(axes)
 
@@ -138,7 +142,7 @@ def _spacing(attitude: Samples | None, rate: Samples | None) -> Panel:
                 dots(axes, channel.t[:-1], steps[-1], colour, name)
                 gap = steps[-1] > GAP * np.median(steps[-1])
                 axes.plot(channel.t[:-1][gap], steps[-1][gap], "o", color=colour)
-        axes.set_ylabel("row spacing,\nms")
+        axes.set_ylabel("row\nspacing, ms")
         _spacing_scale(axes, np.concatenate(steps))
         _legend(axes)
 
@@ -158,5 +162,10 @@ def _spacing_scale(axes: Axes, steps: Series1) -> None:
 def _legend(axes: Axes) -> None:
     """Put the names at the right, where they cover nothing."""
     axes.legend(
-        loc="center left", bbox_to_anchor=(1.0, 0.5), markerscale=3, handlelength=0.9, fontsize=7.5
+        loc="center left",
+        bbox_to_anchor=(1.0, 0.5),
+        markerscale=3,
+        handlelength=1.7,
+        fontsize=7.5,
+        labelspacing=0.15,
     )

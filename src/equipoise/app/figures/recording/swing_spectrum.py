@@ -3,7 +3,8 @@
 import numpy as np
 
 from equipoise.app.figures.base.canvas import Figure, laid_out
-from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
+from equipoise.app.figures.base.strokes import line_of_several
+from equipoise.app.figures.base.style import GREY, WIDE, styled
 from equipoise.assessment.metrics.swing_modes import swing_rates
 from equipoise.model.units import DEG
 from equipoise.procedure.identification.assess import Assessment
@@ -27,8 +28,8 @@ def draw(done: Assessment) -> Figure:
     down = done.com / max(size, 1e-12)
     bed = done.testbed
     predicted = swing_rates(bed.weight * size, bed.body.inertia_P, down) / (2 * np.pi)
-    for column, colour, name in zip(observed.amplitude.T, (BLUE, ORANGE), "xy", strict=True):
-        axes.plot(observed.frequency, column / DEG, color=colour, label=f"vertical along {name}")
+    for k, (column, name) in enumerate(zip(observed.amplitude.T, "xy", strict=True)):
+        line_of_several(axes, k, observed.frequency, column / DEG, f"vertical along {name}")
     for k, hanging in enumerate(done.metrics.hanging):
         f, half = hanging.swing.frequency, observed.resolution / 2
         axes.axvspan(f - half, f + half, color="black", alpha=0.08, linewidth=0)

@@ -42,5 +42,6 @@ def draw(methods: Sequence[Accuracy]) -> Figure:
             face = "white" if open_ended else colour
             axes.plot(x, lines + shift, "o", color=colour, markerfacecolor=face, markersize=4.5,
                       label=None if open_ended else label)  # fmt: skip
-    plain_log(axes)
+    plain_log(axes, "x")
+    axes.margins(x=0.03)
     return with_legend(figure, axes)

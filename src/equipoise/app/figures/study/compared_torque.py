@@ -31,5 +31,6 @@ def draw(laws: Sequence[Left], required: float) -> Figure:
         axes.plot([law.median, law.most], [k, k], color=BLUE, alpha=0.6)
         axes.plot([law.most], [k], "|", color=BLUE, markersize=8)
         axes.plot([law.median], [k], "o", color=BLUE, markersize=4.5)
-    plain_log(axes)
+    plain_log(axes, "x")
+    axes.margins(x=0.03)
     return figure

@@ -18,7 +18,9 @@ CAPTION = (
     "Right, where recorded: over temperature. Many runs are drawn in groups: median "
     "(line) and central 95 % (shade)."
 )
-LABELS = ("$r_x$, um", "$r_y$, um", "$r_z$, um", "$J_{xx}$", "$J_{yy}$", "$J_{zz}$")
+LABELS = (
+    "$r_x$, um", "$r_y$, um", "$r_z$, um", "$J_{xx}$, kg m2", "$J_{yy}$, kg m2", "$J_{zz}$, kg m2",
+)  # fmt: skip
 SIZES = np.array([UM, UM, UM, 1.0, 1.0, 1.0])
 
 

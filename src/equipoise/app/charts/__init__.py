@@ -1,0 +1,1 @@
+"""Records as charts, replays and correlations: blocks that a page shows to be used."""
