@@ -15,7 +15,7 @@ const NO_LIBRARIES =
   "This part needs files of others that are not installed: run make where npm is found.";
 
 const store = new Store();
-const shown = { kind: "bench", span_s: 60, follow: true };
+const shown = { kind: "bench", span_s: 60 };
 let link = "closed";
 let sayLink = () => {};
 
