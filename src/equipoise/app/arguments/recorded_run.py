@@ -62,7 +62,8 @@ def recorded_run(shown: str, testbed: str | None, reading: "Reading") -> Recorde
     bed = testbed_from(bed_file)
     recording = fitted(recording_of(file, reading), bed)
     steps = _steps_of(Path(shown), recording.span[1])
-    return RecordedRun(bed, recording, shown, steps or read_events(file, read_options(reading)))
+    title = f"{Path(shown).absolute().name}, {bed.name}"
+    return RecordedRun(bed, recording, title, steps or read_events(file, read_options(reading)))
 
 
 def _steps_of(folder: Path, end: float) -> tuple[RecordedStep, ...]:

@@ -34,7 +34,7 @@ export class Chart {
     this.plot = new uPlot(this.options(), this.inDrawingOrder(), this.plotPlace);
     make("p", "eq-empty", this.element).textContent = NO_ROWS;
     this.element.dataset.series = reported.name;
-    this.element.dataset.empty = "true";
+    this.sayWhetherEmpty();
     this.fit();
   }
 
@@ -111,7 +111,7 @@ export class Chart {
     this.colours = colours;
     this.unit = unitOf(this.reported.unit, kind);
     this.decimate(span);
-    this.element.dataset.empty = !this.store.series.get(this.reported.name)?.rows;
+    this.sayWhetherEmpty();
     const [min, max] = this.range();
     this.plot.batch(() => {
       this.plot.setData(this.inDrawingOrder(), false);
@@ -119,6 +119,10 @@ export class Chart {
       this.plot.setScale("y", { min, max });
     });
     this.writeValues();
+  }
+
+  sayWhetherEmpty() {
+    this.element.dataset.empty = !this.store.series.get(this.reported.name)?.rows;
   }
 
   decimate(span) {

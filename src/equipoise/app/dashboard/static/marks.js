@@ -1,6 +1,7 @@
 /** What is drawn beside the lines of a chart: where to stay below, where to go, and when. */
 
 const DASH_PX = [6, 4];
+const MOMENT_ALPHA = 0.7; // chosen: lighter than the lines of the chart
 const DOTS_PX = [2, 3];
 const TOLERANCE_ALPHA = 0.14; // chosen: lighter than the bands of one sd
 
@@ -31,6 +32,7 @@ export function drawMoments(plot, times, { colour, dashed }) {
   clip(ctx, bbox);
   ctx.strokeStyle = colour;
   ctx.lineWidth = devicePixelRatio;
+  if (dashed) ctx.globalAlpha = MOMENT_ALPHA;
   ctx.setLineDash(dashed ? DOTS_PX.map((part) => part * devicePixelRatio) : []);
   ctx.beginPath();
   for (const t of times) {

@@ -38,6 +38,10 @@ function show(store) {
     store.notify("redraw");
   };
   const look = (span) => change({ span });
+  // Whoever changes the theme, canvases have to be drawn anew.
+  new MutationObserver(() => store.notify("recolour")).observe(document.documentElement, {
+    attributeFilter: ["data-theme"],
+  });
   const player = new Player(at("eq-player"), store, (t) => look(following(shown.span, store.whole, t)));
   const actions = {
     seek: (t) => player.go(t),
@@ -56,9 +60,6 @@ function show(store) {
     addSaving(chart, store, shown);
   }));
   store.show(showViews(at("eq-views"), store, { live: false, change }));
-  new MutationObserver(() => store.notify("recolour")).observe(document.documentElement, {
-    attributeFilter: ["data-theme"],
-  });
   const state = () => ({ now: store.now, span: shown.span, whole: store.whole, playing: player.playing });
   window.equipoise = { state };
 }

@@ -34,7 +34,7 @@ export function showStory(place, { seek, hint } = {}) {
   let follows = true;
   let top_px = 0;
   const toEnd = () => {
-    if (follows && !seek) place.scrollTop = place.scrollHeight;
+    if (follows && !seek && items.size) place.scrollTop = place.scrollHeight;
   };
   // Only a person scrolls up. A box that becomes lower is not at its end either, for a moment.
   place.addEventListener("scroll", () => {
