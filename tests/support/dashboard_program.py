@@ -151,7 +151,7 @@ def barriers(page) -> list[str]:
 
     found = Axe().run(page).response["violations"]
     return [
-        f"{each['id']}: {each['nodes'][0]['html']}"
+        f"{each['id']}: {each['nodes'][0]['html']} {each['nodes'][0]['failureSummary']}"
         for each in found
         if each["impact"] in ("serious", "critical")
     ]

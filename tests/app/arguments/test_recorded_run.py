@@ -53,7 +53,7 @@ def test_an_identification_brings_its_result_at_the_end(folder):
     assert step.time == run.recording.span[1]
 
 
-def test_a_part_may_be_asked_for(folder):
+def test_a_part_is_selected_by_its_times(folder):
     run = recorded_run(str(folder), None, Reading(from_s=1.0, to_s=2.0))
     first, last = run.recording.span
     assert first >= 1.0

@@ -48,7 +48,7 @@ def whole_recording(run: RecordedRun) -> WholeRecording:
         display.shown_only(t, part)
     post.flush()
     _check_size(run, sum(map(len, rows)))
-    first, last = run.recording.span
+    _, last = run.recording.span
     noted = (RecordedStep("note", last, note) for note in (*run.recording.notes, *notes))
     steps = sorted((*run.steps, *noted), key=lambda step: step.time)
     station = replayed(run.testbed, run.recording, run.title)

@@ -85,7 +85,13 @@ def application(counter: Counter, pipe: Pipe, doors: Doors) -> Gate:
     app = FastAPI(lifespan=living, docs_url=None, redoc_url=None, openapi_url=None)
     _routes(app, counter)
     ui.page("/", title=f"Equipoise: {counter.testbed.name}")(partial(open_page, counter))
-    ui.run_with(app, language="en-US", binding_refresh_interval=None, tailwind=False, show_welcome_message=False)
+    ui.run_with(
+        app,
+        language="en-US",
+        binding_refresh_interval=None,
+        tailwind=False,
+        show_welcome_message=False,
+    )
     core.sio.eio.max_http_buffer_size = LARGEST
     prepare()
     return Gate(app, doors, counter.guard)  # type: ignore[arg-type]

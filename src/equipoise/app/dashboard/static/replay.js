@@ -37,18 +37,18 @@ function show(store) {
     Object.assign(shown, what);
     store.notify("redraw");
   };
-  const look = (span) => change({ span });
+  const showSpan = (span) => change({ span });
   // Whoever changes the theme, canvases have to be drawn anew.
   new MutationObserver(() => store.notify("recolour")).observe(document.documentElement, {
     attributeFilter: ["data-theme"],
   });
-  const player = new Player(at("eq-player"), store, (t) => look(following(shown.span, store.whole, t)));
+  const player = new Player(at("eq-player"), store, (t) => showSpan(following(shown.span, store.whole, t)));
   const actions = {
     seek: (t) => player.go(t),
-    show: (one, other) => look(between(one, other, store.whole)),
-    pan: (share) => look(panned(shown.span, store.whole, share)),
-    zoom: (factor, t) => look(zoomed(shown.span, store.whole, factor, t)),
-    whole: () => look(store.whole),
+    show: (one, other) => showSpan(between(one, other, store.whole)),
+    pan: (share) => showSpan(panned(shown.span, store.whole, share)),
+    zoom: (factor, t) => showSpan(zoomed(shown.span, store.whole, factor, t)),
+    whole: () => showSpan(store.whole),
   };
   addZoom(at("eq-zoom"), actions, store);
   followKeys(at("eq-charts"), actions, store, player);
