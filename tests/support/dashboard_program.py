@@ -8,7 +8,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -129,20 +129,22 @@ class Received:
 SIZES = {"laptop": (1280, 720), "tablet": (768, 1024), "phone": (390, 844)}
 
 
-def pictures(page, folder: Path, name: str) -> dict[str, int]:
-    """Take pictures of a page at three sizes; return by how much it is wider than each, px.
+def pictures(page, folder: Path, name: str, faults: Callable[[Any], list] = lambda _: []) -> list:
+    """Take pictures of a page at three sizes; return where it is too wide, and other faults.
 
     EQUIPOISE_SCREENSHOTS names a folder to keep them in.
     """
-    wider = {}
+    found = []
     kept = Path(os.environ.get("EQUIPOISE_SCREENSHOTS") or folder)
     kept.mkdir(parents=True, exist_ok=True)
     for size, (width, height) in SIZES.items():
         page.set_viewport_size({"width": width, "height": height})
         page.wait_for_timeout(1200)
         page.screenshot(path=kept / f"{name}-{size}.png", full_page=True)
-        wider[size] = page.evaluate("document.documentElement.scrollWidth") - width
-    return wider
+        if page.evaluate("document.documentElement.scrollWidth") > width:
+            found.append(f"{size}: wider than the screen")
+        found += [f"{size}: {fault}" for fault in faults(page)]
+    return found
 
 
 def barriers(page) -> list[str]:

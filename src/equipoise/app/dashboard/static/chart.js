@@ -122,7 +122,8 @@ export class Chart {
   }
 
   sayWhetherEmpty() {
-    this.element.dataset.empty = !this.store.series.get(this.reported.name)?.rows;
+    const empty = String(!this.store.series.get(this.reported.name)?.rows);
+    if (this.element.dataset.empty !== empty) this.element.dataset.empty = empty;
   }
 
   decimate(span) {

@@ -62,7 +62,11 @@ export function showCharts(place, store, shown, made = () => {}) {
     colours = palette();
     request();
   };
-  return { about, rows: request, state: request, step: request, redraw: request, recolour };
+  const rows = () => {
+    for (const chart of charts.values()) chart.sayWhetherEmpty(); // one that is not in sight, too
+    request();
+  };
+  return { about, rows, state: request, step: request, redraw: request, recolour };
 }
 
 /** Keeps `inSight` to the elements that are visible, and asks for a drawing when one comes. */
