@@ -83,7 +83,8 @@ def _views(dark: ui.dark_mode) -> None:
     def themed(event: GenericEventArguments) -> None:
         dark.set_value(_detail(event) is True)
 
-    ui.element("div").classes("eq-views").props("id=eq-views").on("themed", themed, ["detail"])
+    place = ui.element("div").classes("eq-views")
+    place.props("id=eq-views role=group aria-label=View").on("themed", themed, ["detail"])
 
 
 def _detail(event: GenericEventArguments) -> Any:
