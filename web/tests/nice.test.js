@@ -45,6 +45,11 @@ test("a range of one value, of zero too, has a width", () => {
   }
 });
 
+test("a line that stays at zero gets round ticks of about one unit, not of rounding errors", () => {
+  const [least, greatest] = niceRange(0, 0);
+  assert.ok(least <= -0.05 && least >= -1 && greatest >= 0.05 && greatest <= 1);
+});
+
 test("an extent passes over what is not known", () => {
   assert.deepEqual(extent([null, 3, undefined, NaN, -1, Infinity]), [-1, 3]);
   assert.deepEqual(extent([]), [Infinity, -Infinity]);

@@ -46,6 +46,12 @@ test("the first row from a time on is found, before, between and after all", () 
   assert.deepEqual([0, 7, 7.5, 10, 10.1].map((t) => series.firstFrom(t)), [0, 0, 1, 3, 4]);
 });
 
+test("the first row after a time is found; one at that time is not after it", () => {
+  const series = filled(11, 4); // times 7, 8, 9, 10
+  assert.deepEqual([0, 7, 7.5, 10].map((t) => series.firstAfter(t)), [0, 1, 1, 4]);
+  assert.deepEqual(series.row(1), [8, 80]);
+});
+
 test("numbers that make no whole row are refused", () => {
   assert.throws(() => new Series(2, 4).push(Float64Array.of(1, 2, 3)), RangeError);
 });

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { figures, seconds, tick, typeset, unitForSi, unitOf, withSd } from "../../src/equipoise/app/dashboard/static/units.js";
 
 test("units are typeset as people write them", () => {
-  const pairs = { um: "µm", "uN m": "µN m", uJ: "µJ", deg: "deg", "kg m2": "kg m²", "N m": "N m", "rad/s": "rad/s" };
+  const pairs = { um: "µm", "uN m": "µN m", mJ: "mJ", deg: "deg", "kg m2": "kg m²", "N m": "N m", "rad/s": "rad/s" };
   for (const [plain, printed] of Object.entries(pairs)) assert.equal(typeset(plain), printed);
 });
 

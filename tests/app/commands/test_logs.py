@@ -142,7 +142,7 @@ def test_the_remedy_of_a_repair_that_takes_too_much_is_an_option_of_it(equipoise
 
 def test_a_replay_prints_time_tilt_and_masses_each_second(equipoise, record_file):
     """The known move of the record is shown: x1 goes to -10 mm at 60 s."""
-    reported = equipoise("replay", record_file, "--testbed", "sputnix", "--speed", 0)
+    reported = equipoise("replay", record_file, "--terminal", "--testbed", "sputnix", "--speed", 0)
     assert reported.code == 0
     lines = reported.out.splitlines()
     assert 100 < len(lines) <= 122
@@ -172,7 +172,7 @@ def test_a_replay_keeps_its_pace(equipoise, record_file, monkeypatch):
     for module in ("pace", "replay"):
         monkeypatch.setattr(f"equipoise.app.live.{module}.time", clock)
     words = ("--speed", 4, "--from-s", 10, "--to-s", 12)
-    reported = equipoise("replay", record_file, "--testbed", "sputnix", *words)
+    reported = equipoise("replay", record_file, "--terminal", "--testbed", "sputnix", *words)
     assert reported.code == 0
     assert sum(clock.waits) == pytest.approx(0.5, abs=0.1)
     assert len(clock.waits) >= 5

@@ -87,17 +87,13 @@ def _opening(
         fitting_recording_of,
         testbed_from,
     )
+    from equipoise.app.arguments.recorded_run import files_shown, is_recorded
     from equipoise.app.bench.emulation import hardware_of
     from equipoise.app.dashboard.protocol.data_folder import data_folder
     from equipoise.app.dashboard.runner.runner_process import Opening
-    from equipoise.app.report.logbook_entry import RECORDING
-    from equipoise.io.documents.run_folder import TESTBED
 
-    path = Path(shown)
-    if path.is_dir():
-        shown, testbed = str(path / RECORDING), testbed or str(path / TESTBED)
-    if testbed is None and _is_recording(path):
-        raise InputError("--testbed", "none", f"the testbed of which {shown} is a recording")
+    if testbed is not None or is_recorded(Path(shown)):
+        shown, testbed = files_shown(shown, testbed)
     if testbed is None:
         check_of_recording(reading, None, "a recording to show")
         bed = announced(testbed_from(shown))
@@ -109,8 +105,3 @@ def _opening(
     bed = announced(testbed_from(testbed))
     recording = fitting_recording_of(shown, reading, bed)
     return Opening(bed, data_folder(), seed, False, recording, shown)
-
-
-def _is_recording(path: Path) -> bool:
-    """Say whether a file is there that is no testbed."""
-    return path.is_file() and path.suffix.lower() != ".toml"

@@ -9,15 +9,13 @@ from equipoise.app.report.run_record import Logged, RunRecord
 from equipoise.app.text.escaping import for_json
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.documents.run_file import text_of_run
-from equipoise.io.documents.run_folder import TESTBED
+from equipoise.io.documents.run_folder import RECORDING, TESTBED
 from equipoise.io.formats.csv_table import csv_text
 from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.estimate import COM, Parameter
 from equipoise.model.logged_run import RUN, Ending, LoggedRun, Usability
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict
-
-RECORDING = "recording.csv"
 
 
 def files_of(logged: Logged, record: RunRecord, name: str) -> dict[str, str | bytes]:

@@ -8,6 +8,7 @@ from equipoise.io.files.source_file import read_text
 from equipoise.model.errors import InputError
 
 TESTBED = "testbed.toml"
+RECORDING = "recording.csv"  # where the run made it; one of a file stays where it is
 A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
 
 

@@ -81,7 +81,7 @@ def _free_from(found: Salvage, zero: int) -> float | None:
     starts: list[int] = []
     for _, ns, data in found.kept.of(ids):
         found.meter.check(DECODED * len(data))
-        if _json(data).get("kind") == START:
+        if json_object(data).get("kind") == START:
             starts.append(ns - zero)
     return max(starts) / PER_S if starts else None
 
@@ -149,13 +149,13 @@ def _values(name: str, keys: tuple[str, ...], data: bytes) -> tuple[float, ...] 
     try:
         if name == "attitude":
             return turned(FRAME_TRANSFORM, data)[1]
-        decoded = _json(data)
+        decoded = json_object(data)
         return tuple(float(decoded[key]) for key in keys)
     except (KeyError, OverflowError, TypeError, ValueError):
         return None
 
 
-def _json(data: bytes) -> Any:
+def json_object(data: bytes) -> Any:
     """Return what JSON says if it is an object; else an empty one."""
     try:
         decoded: Any = json.loads(data)

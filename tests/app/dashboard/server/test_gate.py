@@ -13,7 +13,7 @@ from equipoise.app.dashboard.server.authorisation import Guard, new_token
 from equipoise.app.dashboard.server.gate import COOKIE, LARGEST, SOCKETS, Doors, Gate
 from equipoise.app.dashboard.server.limits import Bucket
 from equipoise.app.dashboard.server.policies import of_file
-from equipoise.app.dashboard.server.session import bracketed, names
+from equipoise.app.dashboard.server.serving import bracketed, names
 from equipoise.model.errors import InputError
 
 HERE, TOKEN = "127.0.0.1:8080", "the-token"

@@ -7,7 +7,7 @@ from itertools import islice
 from pathlib import Path
 
 from equipoise.app.logbook.run_folder import USUAL, free, runs_folder, slug
-from equipoise.app.report.logbook_entry import RECORDING
+from equipoise.io.documents.run_folder import RECORDING
 from equipoise.io.documents.run_shards import MONTH
 from equipoise.model.errors import InputError
 

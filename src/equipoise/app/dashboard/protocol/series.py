@@ -5,11 +5,12 @@ from dataclasses import dataclass
 from equipoise.app.text.numbers import SHOWN, TRAVEL, Unit
 from equipoise.model.devices import Device
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import PERCENT, UJ
+from equipoise.model.units import MILLIJOULE, PERCENT
 
 AXES = ("x", "y", "z")
 SHARE = Unit("%", PERCENT)
-ENERGY = Unit("uJ", UJ)
+ENERGY = Unit("mJ", MILLIJOULE)
+ENERGIES = ("kinetic", "potential (gravity)", "total")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,7 @@ def series_of(testbed: Testbed) -> list[Series]:
         Series("attitude", "Attitude", ("roll", "pitch", "yaw"), "rad", SHOWN["rad"], sd=True),
         Series("rate", "Rate", AXES, "rad/s", SHOWN["rad/s"], sd=True),
         Series("torque", "Residual torque", AXES, "N m", SHOWN["N m"], sd=True),
-        Series("energy", "Energy", ("kinetic", "potential", "total"), "J", ENERGY, sd=True),
+        Series("energy", "Energy", ENERGIES, "J", ENERGY, sd=True),
         Series("masses", "Masses", testbed.mass_names, "m", TRAVEL),
         Series("limits", "Interlocks, share of limit", limits, "-", SHARE, line=1.0),
     ]

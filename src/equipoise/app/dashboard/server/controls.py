@@ -23,6 +23,7 @@ from equipoise.model.units import UM, in_si
 
 TARGET_UM, TOLERANCE_UM = (0.0, 0.0, -100.0), (2.0, 2.0, 3.0)  # as ``equipoise balance`` has them
 SPEEDS = {0.5: "half", 1.0: "real time", 2.0: "2 x", 5.0: "5 x", 20.0: "20 x", 0.0: "fastest"}
+TOKEN_IS = "The terminal in which the dashboard was started shows the token."
 TABS = ("Balance", "Masses", "Data", "Bench")
 
 
@@ -58,6 +59,7 @@ class Controls:
             each.set_enabled(mine)
         self.start.set_enabled(mine and phase in ("idle", "paused"))
         self.command.set_text("Release" if mine else "Command")
+        self.where.set_visibility(not mine)
         self.hold.set_text("Let go" if phase in ("paused", "held") else "Hold")
         self.hold.set_visibility(counter.watch.about.get("bench") != "real")
         self.record.set_text("End recording" if state.get("recording") else "Record")
@@ -75,6 +77,7 @@ class Controls:
     # --- Parts -------------------------------------------------------------------------------
 
     def _token_row(self) -> None:
+        self.where = ui.label(TOKEN_IS).classes("eq-label")
         with ui.row().classes("eq-token"):
             self.token = text_field("Token")
             self.token.element.props(

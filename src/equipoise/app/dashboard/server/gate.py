@@ -33,7 +33,7 @@ LARGEST = 64 * 1024  # bytes of a request or message, chosen: many times what an
 SOCKETS = 64  # open at once, chosen: a page has two
 COOKIE = "equipoise_token"
 PAGE, SHELL_SOCKET = "/", "/_nicegui_ws/socket.io/"
-FILES = ("/static/", "/runs/", "/_nicegui/")
+FILES = ("/static/", "/runs/", "/replay/", "/_nicegui/")
 OTHERS = frozenset({PAGE, "/live", "/favicon.ico", SHELL_SOCKET})
 Refusal = tuple[int, str]
 

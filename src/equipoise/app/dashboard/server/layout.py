@@ -3,11 +3,11 @@
 from typing import Any
 
 from nicegui import Client, ui
+from nicegui.elements.mixins.text_element import TextElement
 from nicegui.events import GenericEventArguments
 
 from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.server.controls import Controls
-from equipoise.app.dashboard.server.fields import choice, switch
 from equipoise.app.dashboard.server.request_queue import Counter
 
 HEAD = (
@@ -16,8 +16,6 @@ HEAD = (
     '<link rel="stylesheet" href="/static/shell.css">'
     '<script type="module" nonce="{nonce}" src="/static/page.js"></script>'
 )
-SPANS = {20: "20 s", 60: "1 min", 300: "5 min", 1200: "20 min"}
-UNITS = {"bench": "um, mm, deg", "si": "SI"}
 UNCONNECTED = 20.0  # s, chosen: a page loads 2 MB before it connects
 EVERY = 0.3  # s, chosen: how often the controls follow how things stand
 
@@ -38,20 +36,20 @@ async def open_page(counter: Counter) -> None:
 def _build(counter: Counter, page: Client) -> None:
     dark = ui.dark_mode(value=False)
     with ui.element("header").classes("eq-head"):
-        ui.label(counter.testbed.name).classes("eq-title")
+        TextElement(tag="h1", text=counter.testbed.name).classes("eq-title")
         phase = ui.label().classes("eq-phase")
         note = ui.label().classes("eq-note").props("role=status")
         ui.element("span").props("id=eq-link aria-live=polite")
         _views(dark)
-    with ui.element("main").classes("eq-main"):
-        with ui.element("section").classes("eq-left").props('aria-label="Controls"'):
+    with ui.element("div").classes("eq-main"):  # the shell has a <main> around it
+        with _section("eq-left", "Controls"):
             controls = Controls(counter, page.id)
-        with ui.element("section").classes("eq-view"):
+        with _section("eq-view", "Platform"):
             _container("eq-scene")
-        with ui.element("section").classes("eq-story"):
+        with _section("eq-story", "Numbers and steps"):
             _container("eq-numbers")
             _container("eq-story")
-        with ui.element("section").classes("eq-strips"):
+        with _section("eq-strips", "Charts"):
             _time_slider(counter, page.id)
             _container("eq-charts")
 
@@ -65,26 +63,37 @@ def _build(counter: Counter, page: Client) -> None:
     page.on_delete(lambda: counter.guard.leave(page.id))
 
 
+def _section(place: str, heading: str) -> ui.element:
+    """Lay a part of the page, with a heading that is read out and not drawn."""
+    with ui.element("section").classes(place).props(f'aria-label="{heading}"') as section:
+        TextElement(tag="h2", text=heading).classes("eq-unseen")
+    return section
+
+
 def _container(name: str) -> None:
     ui.element("div").props(f"id={name}")
 
 
 def _views(dark: ui.dark_mode) -> None:
-    """Lay the switches of this page alone, which need no token; ``page.js`` observes them."""
-    shown = ui.element("div").props("id=eq-shown hidden data-span=60 data-units=bench")
+    """Lay the place for what a reader chooses for this page alone (``views.js``).
 
-    def show(what: str, value: object) -> None:
-        shown.props[f"data-{what}"] = str(value).lower()
+    The choices need no token. The theme alone is passed on, since the shell has its own.
+    """
 
-    def themed(on: bool) -> None:
-        dark.set_value(on)
-        show("dark", on)
+    def themed(event: GenericEventArguments) -> None:
+        dark.set_value(_detail(event) is True)
 
-    span = choice(SPANS, 60, lambda value: show("span", value))
-    span.element.props('dense borderless options-dense aria-label="Time shown"')
-    units = choice(UNITS, "bench", lambda value: show("units", value))
-    units.element.props('dense borderless options-dense aria-label="Units"')
-    switch("q-toggle", "Dark", themed)
+    place = ui.element("div").classes("eq-views")
+    place.props("id=eq-views role=group aria-label=View").on("themed", themed, ["detail"])
+
+
+def _detail(event: GenericEventArguments) -> Any:
+    """Return what an event of the page's own modules brings; it may be anything."""
+    sent: Any = event.args
+    try:
+        return sent["detail"]
+    except (TypeError, LookupError):
+        return sent
 
 
 def _phase(counter: Counter) -> str:
@@ -98,12 +107,7 @@ def _time_slider(counter: Counter, page: str) -> None:
     """Lay the slider of a replay's time; ``timebar.js`` moves it, a person's change seeks."""
 
     def seek(event: GenericEventArguments) -> None:
-        sent: Any = event.args
-        try:
-            t: Any = sent["detail"]
-        except (TypeError, LookupError):
-            t = sent
-        why = counter.request(page, requests.Seek(t))
+        why = counter.request(page, requests.Seek(_detail(event)))
         if why:
             ui.notify(why, type="warning")
 

@@ -1,16 +1,13 @@
 """The server: the page, what it draws from, the live rows and the files of runs."""
 
 import asyncio
-import socket
 import threading
 from collections.abc import AsyncGenerator
 from contextlib import asynccontextmanager, suppress
 from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection as Pipe
-from pathlib import Path
 
-import uvicorn
 from fastapi import FastAPI, WebSocket, WebSocketDisconnect
 from fastapi.responses import FileResponse, JSONResponse
 from fastapi.staticfiles import StaticFiles
@@ -22,15 +19,12 @@ from equipoise.app.dashboard.runner.runner_process import Opening, run_runner
 from equipoise.app.dashboard.server.broadcast import GONE, Watch
 from equipoise.app.dashboard.server.gate import LARGEST, Doors, Gate
 from equipoise.app.dashboard.server.layout import open_page
-from equipoise.app.dashboard.server.limits import BACKLOG, Waiting, limited
 from equipoise.app.dashboard.server.policies import of_file
 from equipoise.app.dashboard.server.request_queue import Counter
+from equipoise.app.dashboard.server.serving import STATIC
 from equipoise.app.dashboard.server.shell import prepare
-from equipoise.hardware.bench.stop_signals import HANG_UP, handled
 from equipoise.model.errors import EquipoiseError, InputError
 
-STATIC = Path(__file__).parents[1] / "static"
-VENDOR = STATIC / "vendor"
 LEAVING = 5.0  # s, chosen: for the runner to halt a bench and end
 ENDED = "The runner has ended; start the dashboard again."
 
@@ -91,7 +85,13 @@ def application(counter: Counter, pipe: Pipe, doors: Doors) -> Gate:
     app = FastAPI(lifespan=living, docs_url=None, redoc_url=None, openapi_url=None)
     _routes(app, counter)
     ui.page("/", title=f"Equipoise: {counter.testbed.name}")(partial(open_page, counter))
-    ui.run_with(app, binding_refresh_interval=None, tailwind=False, show_welcome_message=False)
+    ui.run_with(
+        app,
+        language="en-US",
+        binding_refresh_interval=None,
+        tailwind=False,
+        show_welcome_message=False,
+    )
     core.sio.eio.max_http_buffer_size = LARGEST
     prepare()
     return Gate(app, doors, counter.guard)  # type: ignore[arg-type]
@@ -139,14 +139,3 @@ async def _shown(page: WebSocket, watch: Watch) -> None:
     finally:
         silent.cancel()
         watch.leave(reported)
-
-
-def serve(app: Gate, at: socket.socket) -> None:
-    """Serve until Ctrl-C and its like; the server knows of two of these signals by itself."""
-    config = uvicorn.Config(
-        app, log_level="error", ws_max_size=LARGEST, timeout_graceful_shutdown=1,
-        access_log=False, http=limited(Waiting()), backlog=BACKLOG,  # type: ignore[arg-type]
-    )  # fmt: skip
-    server = uvicorn.Server(config)
-    with handled(HANG_UP, server.handle_exit):
-        server.run(sockets=[at])

@@ -10,9 +10,15 @@ from equipoise.app.dashboard.server.authorisation import Guard, new_token
 from equipoise.app.dashboard.server.broadcast import Watch
 from equipoise.app.dashboard.server.gate import Doors, Gate
 from equipoise.app.dashboard.server.request_queue import Counter
-from equipoise.app.dashboard.server.server import VENDOR, RemoteRunner, application, serve
+from equipoise.app.dashboard.server.server import RemoteRunner, application
+from equipoise.app.dashboard.server.serving import (
+    bracketed,
+    check_libraries,
+    listening,
+    names,
+    serve,
+)
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.model.errors import InputError
 from equipoise.procedure.balancing.catalogue import CARDS
 
 
@@ -47,9 +53,7 @@ class Session(AbstractContextManager["Session"]):
 
 def open_session(opening: Opening, host: str, port: int, exposed: bool) -> Session:
     """Return a session that listens; InputError where it cannot."""
-    if not (VENDOR / "three.module.js").is_file():
-        found = "no three.js and uPlot beside the page"
-        raise InputError("dashboard", found, "them: `make test` in the source folder fetches them")
+    check_libraries()
     at = listening(host, port)
     token, watch = new_token(), Watch()
     runner = RemoteRunner(opening)
@@ -70,30 +74,3 @@ def open_session(opening: Opening, host: str, port: int, exposed: bool) -> Sessi
     counter = Counter(opening.testbed, opening.folder, laws, methods, watch, Guard(token), send)
     doors = Doors(frozenset(names(host, at.getsockname()[1])), exposed)
     return Session(at, token, application(counter, runner.pipe, doors), runner, exposed)
-
-
-def listening(host: str, port: int) -> socket.socket:
-    """Return a socket that listens; InputError where the port is taken or the address not ours."""
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    at = socket.socket(family, socket.SOCK_STREAM)
-    at.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    try:
-        at.bind((host, port))
-        at.listen(64)
-    except OSError as error:
-        at.close()
-        why = error.strerror or str(error)
-        raise InputError(f"{host}:{port}", why, "a free address and port") from error
-    return at
-
-
-def names(host: str, port: int) -> Iterator[str]:
-    """Yield what a browser may call the place where we listen."""
-    yield f"{bracketed(host)}:{port}"
-    if host == "127.0.0.1":
-        yield f"localhost:{port}"
-
-
-def bracketed(host: str) -> str:
-    """Return an address as a URL has it."""
-    return f"[{host}]" if ":" in host else host

@@ -4,13 +4,14 @@ import uPlot from "./vendor/uPlot.esm.js";
 import { Heading, make } from "./chart_heading.js";
 import { lineStyles } from "./colours.js";
 import { drawn } from "./decimate.js";
-import { drawRule, drawTargets } from "./marks.js";
+import { drawMoments, drawRule, drawTargets } from "./marks.js";
 import { extent, niceRange } from "./nice.js";
 import { tick, unitOf } from "./units.js";
 
 const FONT = '11px system-ui, "DejaVu Sans", sans-serif';
 const BAND_ALPHA = "30"; // of 255 in hexadecimal, chosen: three bands on one another are visible
 const TARGETED = "com"; // the series that the goal's target and tolerance are of
+const NO_ROWS = "No measurement yet.";
 const FEWEST_BUCKETS = 50; // of a chart that has no size yet
 
 export class Chart {
@@ -31,6 +32,9 @@ export class Chart {
     this.plotPlace.setAttribute("role", "img");
     this.plotPlace.setAttribute("aria-label", `${reported.title} against bench time`);
     this.plot = new uPlot(this.options(), this.inDrawingOrder(), this.plotPlace);
+    make("p", "eq-empty", this.element).textContent = NO_ROWS;
+    this.element.dataset.series = reported.name;
+    this.sayWhetherEmpty();
     this.fit();
   }
 
@@ -53,7 +57,11 @@ export class Chart {
       axes: [this.axis(22, 64, (t) => `${tick(t)} s`), this.axis(52, 24, tick)],
       series: [{}, ...edges, ...this.lineStyles.map((lineStyle) => this.line(lineStyle))],
       bands: banded.map((lineStyle, c) => this.band(lineStyle, c)),
-      hooks: { drawAxes: [() => this.drawMarks()], setCursor: [() => this.writeValues()] },
+      hooks: {
+        drawAxes: [() => this.drawMarks()],
+        draw: [() => this.drawTimes()],
+        setCursor: [() => this.writeValues()],
+      },
     };
   }
 
@@ -103,6 +111,7 @@ export class Chart {
     this.colours = colours;
     this.unit = unitOf(this.reported.unit, kind);
     this.decimate(span);
+    this.sayWhetherEmpty();
     const [min, max] = this.range();
     this.plot.batch(() => {
       this.plot.setData(this.inDrawingOrder(), false);
@@ -110,6 +119,11 @@ export class Chart {
       this.plot.setScale("y", { min, max });
     });
     this.writeValues();
+  }
+
+  sayWhetherEmpty() {
+    const empty = String(!this.store.series.get(this.reported.name)?.rows);
+    if (this.element.dataset.empty !== empty) this.element.dataset.empty = empty;
   }
 
   decimate(span) {
@@ -158,6 +172,15 @@ export class Chart {
     const { line } = this.reported;
     if (line !== null) drawRule(this.plot, line / this.unit.size, this.colours.text);
     drawTargets(this.plot, this.targets());
+  }
+
+  /** When steps were done, and in a replay the time that is shown. */
+  drawTimes() {
+    if (!this.unit) return;
+    const steps = [...(this.store.steps?.values() ?? [])];
+    drawMoments(this.plot, steps.map((step) => step.t), { colour: this.colours.quiet, dashed: true });
+    const { now } = this.store;
+    if (now !== undefined) drawMoments(this.plot, [now], { colour: this.colours.text, dashed: false });
   }
 
   /** The values under the cursor, which all charts share, else the newest. */

@@ -9,20 +9,24 @@ const PERIOD_MS = 100; // smooth to the eye for lines that creep; chosen
 /**
  * @param {HTMLElement} place
  * @param {import("./store.js").Store} store
- * @param {{kind: import("./units.js").Kind, span_s: number, follow: boolean}} shown
+ * @param {{kind: import("./units.js").Kind, span_s: number, span?: import("./span.js").Span}} shown
+ *   `span`: the part of a recording; without one the charts follow the newest row
+ * @param {(chart: Chart) => void} made  is given each chart that is made
  */
-export function showCharts(place, store, shown) {
+export function showCharts(place, store, shown, made = () => {}) {
   /** @type {Map<Element, Chart>} */
   const charts = new Map();
   const inSight = new Set();
   let colours = palette();
-  let end_s = 0; // stays where it is while the charts do not follow
   let built = null; // the series for which there are charts, as JSON
 
+  // A young record grows from the left edge; then the window moves along with it.
+  const newest = () => {
+    const to = Math.max(store.t ?? 0, (store.began ?? 0) + shown.span_s);
+    return { from: to - shown.span_s, to, length: shown.span_s };
+  };
   const draw = () => {
-    // A young record grows from the left edge; then the window moves along with it.
-    if (shown.follow) end_s = Math.max(store.t ?? 0, (store.began ?? 0) + shown.span_s);
-    const span = { from: end_s - shown.span_s, to: end_s, length: shown.span_s };
+    const span = shown.span ? { ...shown.span, to: shown.span.from + shown.span.length } : newest();
     for (const element of inSight) charts.get(element)?.draw(span, shown.kind, colours);
   };
   const request = paced(draw, PERIOD_MS);
@@ -49,6 +53,7 @@ export function showCharts(place, store, shown) {
     for (const reported of store.about.series.filter((series) => series.chart)) {
       const chart = new Chart(place, reported, store, request);
       charts.set(chart.element, chart);
+      made(chart);
       observed.observe(chart.element);
       sizes.observe(chart.plotPlace);
     }
@@ -57,7 +62,11 @@ export function showCharts(place, store, shown) {
     colours = palette();
     request();
   };
-  return { about, rows: request, state: request, redraw: request, recolour };
+  const rows = () => {
+    for (const chart of charts.values()) chart.sayWhetherEmpty(); // one that is not in sight, too
+    request();
+  };
+  return { about, rows, state: request, step: request, redraw: request, recolour };
 }
 
 /** Keeps `inSight` to the elements that are visible, and asks for a drawing when one comes. */

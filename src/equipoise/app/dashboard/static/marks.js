@@ -1,6 +1,8 @@
-/** What is drawn behind the lines of a chart: where to stay below, and where to go. */
+/** What is drawn beside the lines of a chart: where to stay below, where to go, and when. */
 
 const DASH_PX = [6, 4];
+const MOMENT_ALPHA = 0.7; // chosen: lighter than the lines of the chart
+const DOTS_PX = [2, 3];
 const TOLERANCE_ALPHA = 0.14; // chosen: lighter than the bands of one sd
 
 /** A dashed line over the whole width at `y`. @param {import("./vendor/uPlot.esm.js").default} plot */
@@ -15,6 +17,29 @@ export function drawRule(plot, y, colour) {
   ctx.beginPath();
   ctx.moveTo(bbox.left, y_px);
   ctx.lineTo(bbox.left + bbox.width, y_px);
+  ctx.stroke();
+  ctx.restore();
+}
+
+/**
+ * Upright lines over the whole height.
+ * @param {number[]} times  s; those outside of the chart are not drawn
+ * @param {{colour: string, dashed: boolean}} how
+ */
+export function drawMoments(plot, times, { colour, dashed }) {
+  const { ctx, bbox } = plot;
+  ctx.save();
+  clip(ctx, bbox);
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = devicePixelRatio;
+  if (dashed) ctx.globalAlpha = MOMENT_ALPHA;
+  ctx.setLineDash(dashed ? DOTS_PX.map((part) => part * devicePixelRatio) : []);
+  ctx.beginPath();
+  for (const t of times) {
+    const x_px = plot.valToPos(t, "x", true);
+    ctx.moveTo(x_px, bbox.top);
+    ctx.lineTo(x_px, bbox.top + bbox.height);
+  }
   ctx.stroke();
   ctx.restore();
 }

@@ -7,13 +7,15 @@ export function niceBelow(x) {
   return Number(((digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power).toPrecision(1));
 }
 
+const FLAT = 1; // of the unit shown, about a line that stays at zero; chosen
+
 /**
  * A range of an axis that holds least and greatest with some room, and moves in steps only, so
  * that an axis stands still while its line wanders.
  * @returns {[number, number]}
  */
 export function niceRange(least, greatest) {
-  const width = greatest - least || Math.abs(greatest) * 0.1 || 1e-9;
+  const width = greatest - least || Math.abs(greatest) * 0.1 || FLAT;
   const step = niceBelow(width / 4);
   const room = width * 0.06;
   return [Math.floor((least - room) / step) * step, Math.ceil((greatest + room) / step) * step];

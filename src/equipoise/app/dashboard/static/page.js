@@ -3,19 +3,21 @@
  * the shell makes, and `window.equipoise` for the tests.
  */
 
+import { firstSteps } from "./first_steps.js";
 import { sayInstead } from "./instead.js";
 import { keepLinked, linkWords } from "./link.js";
 import { showNumbers } from "./numbers.js";
 import { Store } from "./store.js";
 import { showStory } from "./story.js";
 import { showTimebar } from "./timebar.js";
+import { showViews } from "./views.js";
 
 const WAIT_MS = 50;
 const NO_LIBRARIES =
   "This part needs files of others that are not installed: run make where npm is found.";
 
 const store = new Store();
-const shown = { kind: "bench", span_s: 60, follow: true };
+const shown = { kind: "bench", span_s: 60 };
 let link = "closed";
 let sayLink = () => {};
 
@@ -57,16 +59,6 @@ function state() {
 
 window.equipoise = { state };
 
-/** The shell's switches of this page alone stand in attributes. @param {HTMLElement} place */
-function followSwitches(place) {
-  const follow = () => {
-    const { span, units, dark } = place.dataset;
-    document.documentElement.dataset.theme = dark === "true" ? "dark" : "light";
-    change({ kind: units, span_s: Number(span) });
-  };
-  new MutationObserver(follow).observe(place, { attributes: true });
-}
-
 // Whoever changes the theme, canvases have to be drawn anew.
 new MutationObserver(() => store.notify("recolour")).observe(document.documentElement, {
   attributeFilter: ["data-theme"],
@@ -80,15 +72,18 @@ keepLinked(
   },
 );
 
-present("eq-shown").then(followSwitches);
 present("eq-link").then((place) => {
   sayLink = linkWords(place);
   sayLink(link);
 });
-present("eq-story").then((place) => store.show(showStory(place)));
+present("eq-story").then((place) => store.show(showStory(place, { hint: () => firstSteps(store.about) })));
 present("eq-time").then((place) => store.show(showTimebar(place, store)));
 present("eq-numbers").then((place) => store.show(showNumbers(place, store, () => shown.kind)));
 showWithLibraries("eq-charts", "./charts.js", ({ showCharts }, place) =>
   showCharts(place, store, shown),
-);
+).then(async () => {
+  const place = await present("eq-views"); // after the charts: it has to find them
+  const themed = (dark) => place.dispatchEvent(new CustomEvent("themed", { detail: dark }));
+  store.show(showViews(place, store, { live: true, change, themed }));
+});
 showWithLibraries("eq-scene", "./scene.js", ({ showScene }, place) => showScene(place, store));

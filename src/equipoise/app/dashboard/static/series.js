@@ -33,19 +33,33 @@ export class Series {
     return this.kept[column][(this.received - this.rows + row) % this.capacity];
   }
 
+  /** @returns {number[]} a row with its time */
+  row(row) {
+    return this.kept.map((_, column) => this.at(row, column));
+  }
+
   /** @returns {number[]|null} the newest row with its time */
   last() {
-    return this.rows ? this.kept.map((_, column) => this.at(this.rows - 1, column)) : null;
+    return this.rows ? this.row(this.rows - 1) : null;
   }
 
   /** @returns {number} the first row that is not before `t` */
   firstFrom(t) {
+    return this.firstWhere((time) => time >= t);
+  }
+
+  /** @returns {number} the first row that is after `t` */
+  firstAfter(t) {
+    return this.firstWhere((time) => time > t);
+  }
+
+  firstWhere(reached) {
     let low = 0;
     let high = this.rows;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (this.at(middle, 0) < t) low = middle + 1;
-      else high = middle;
+      if (reached(this.at(middle, 0))) high = middle;
+      else low = middle + 1;
     }
     return low;
   }

@@ -12,18 +12,29 @@ const BADGES = {
   undecided: { mood: "unsure", text: "cannot tell" },
 };
 
-/** @param {HTMLElement} place  the box that scrolls */
-export function showStory(place) {
+/**
+ * @param {HTMLElement} place  the box that scrolls
+ * @param {{seek?: (t: number) => void, hint?: () => Node|null}} how  `seek`: the time of a step is
+ *   a button that goes there; `hint`: what stands here while there is no step
+ */
+export function showStory(place, { seek, hint } = {}) {
   const list = document.createElement("ol");
-  list.setAttribute("aria-label", "Steps");
-  place.tabIndex = 0; // scrolls with the keyboard
-  place.setAttribute("role", "log");
-  place.append(list);
   const items = new Map();
+  place.tabIndex = 0; // scrolls with the keyboard
+  place.setAttribute("role", seek ? "region" : "log");
+  place.setAttribute("aria-label", "Steps");
+  const hinted = document.createElement("div");
+  hinted.className = "eq-hint";
+  place.append(hinted, list);
+  const say = () => {
+    const found = items.size === 0 && hint?.();
+    hinted.replaceChildren(...(found ? [found] : []));
+    list.hidden = items.size === 0; // a list without items is no list
+  };
   let follows = true;
   let top_px = 0;
   const toEnd = () => {
-    if (follows) place.scrollTop = place.scrollHeight;
+    if (follows && !seek && items.size) place.scrollTop = place.scrollHeight;
   };
   // Only a person scrolls up. A box that becomes lower is not at its end either, for a moment.
   place.addEventListener("scroll", () => {
@@ -35,29 +46,40 @@ export function showStory(place) {
   return {
     about() {
       items.clear();
-      follows = true;
+      follows = !seek;
       list.replaceChildren();
+      say();
     },
     step(step) {
-      const item = itemOf(step);
+      const item = itemOf(step, seek);
       if (items.has(step.index)) items.get(step.index).replaceWith(item);
       else list.append(item);
       items.set(step.index, item);
+      say();
       toEnd();
     },
   };
 }
 
-function itemOf(step) {
+function itemOf(step, seek) {
   const item = document.createElement("li");
   item.dataset.of = step.of;
   item.append(
-    textIn("time", seconds(step.t)),
+    seek ? goTo(step, seek) : textIn("time", seconds(step.t)),
     textIn("b", step.of),
     textIn("span", step.sentence),
   );
   if (step.outcome) item.append(badge(step.outcome));
   return item;
+}
+
+function goTo(step, seek) {
+  const button = textIn("button", seconds(step.t));
+  button.type = "button";
+  button.className = "eq-at";
+  button.title = "Go to this time";
+  button.addEventListener("click", () => seek(step.t));
+  return button;
 }
 
 function badge(outcome) {

@@ -13,7 +13,7 @@ const SHOWN = {
   rad: { bench: ["deg", DEG], si: ["rad", 1] },
   "rad/s": { bench: ["deg/s", DEG], si: ["rad/s", 1] },
   "N m": { bench: ["uN m", 1e-6], si: ["N m", 1] },
-  J: { bench: ["uJ", 1e-6], si: ["J", 1] },
+  J: { bench: ["mJ", 1e-3], si: ["J", 1] },
 };
 
 /**

@@ -1,0 +1,59 @@
+"""The steps of a balancing, read back from the document in the folder of its run."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
+
+from equipoise.io.documents.run_folder import A_RUN
+from equipoise.io.files.source_file import read_bytes
+from equipoise.model.criterion import VerdictOutcome
+from equipoise.model.errors import InputError
+from equipoise.model.recorded_step import RecordedStep
+
+BALANCE = "balance.json"  # in the folder of a balancing
+
+
+@dataclass(frozen=True, slots=True)
+class _Verdict:
+    outcome: VerdictOutcome
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    kind: str
+    time_s: float
+    sentence: str
+    verdict: _Verdict | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Document:
+    """Of the document the parts that are shown again; the others are passed over."""
+
+    steps: tuple[_Step, ...]
+
+
+_DOCUMENT = TypeAdapter(_Document)
+
+
+def read_steps(folder: Path) -> tuple[RecordedStep, ...]:
+    """Return the steps of a run in their order; none where the run was no balancing.
+
+    Raises InputError if the document is not one that a balancing writes.
+    """
+    path = folder / BALANCE
+    if not path.is_file():
+        return ()
+    try:
+        document = _DOCUMENT.validate_json(read_bytes(path, A_RUN))
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ": ".join((str(path), *map(str, first["loc"])))
+        raise InputError(where, first["msg"], "the document of a balancing") from error
+    return tuple(map(_recorded, document.steps))
+
+
+def _recorded(step: _Step) -> RecordedStep:
+    outcome = None if step.verdict is None else step.verdict.outcome.value
+    return RecordedStep(step.kind, step.time_s, step.sentence, outcome)
