@@ -17,7 +17,7 @@ DIMENSIONLESS = {
     "quaternion", "singularity index", "RMSE / bound", "recording", "sun sensor,\nunit vector",
 }  # fmt: skip
 OVERLAP = 1.5  # pixels, of boxes whose letters do not touch
-APART = 0.1  # of lightness: what an eye tells in grey
+LIGHTNESS_STEP = 0.1  # of lightness: what an eye tells in grey
 
 
 @pytest.fixture(scope="module")
@@ -139,7 +139,7 @@ def test_no_marker_is_cut(figures):
     assert cut == []
 
 
-def test_lines_of_a_panel_are_told_apart_without_colour(figures):
+def test_lines_of_a_panel_differ_without_colour(figures):
     """By their dashes, by their lightness, or by markers."""
     alike = []
     for name, axes in panels_of(figures):
@@ -150,7 +150,7 @@ def test_lines_of_a_panel_are_told_apart_without_colour(figures):
         ]
         for a, b in combinations(lines, 2):
             dashes = a._unscaled_dash_pattern == b._unscaled_dash_pattern
-            shades = abs(greyness(a.get_color()) - greyness(b.get_color())) < APART
+            shades = abs(greyness(a.get_color()) - greyness(b.get_color())) < LIGHTNESS_STEP
             if dashes and shades and a.get_marker() == b.get_marker():
                 alike.append((name, a.get_label(), b.get_label()))
     assert alike == []

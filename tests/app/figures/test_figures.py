@@ -150,7 +150,7 @@ def test_a_backend_that_can_be_used_stays_as_it_was_named():
 
 def test_the_model_leaves_noise_in_figure_7(pictures):
     """The prediction knows where masses really stopped: nine dots in ten lie in the 2 sd band."""
-    for axes in pictures["figure07_residual"].figure.axes:
+    for axes in pictures["figure07_residual"].figure.axes[::3]:  # rows, density, correlation
         dots = next(line.get_ydata() for line in axes.lines if len(line.get_ydata()) > 100)
         assert np.mean(np.abs(dots) < 0.4) > 0.9
 
