@@ -176,9 +176,7 @@ def test_a_vertical_that_nothing_shows_is_said_to_be_unchecked(equipoise, tmp_pa
     assert "not checked: whether the laboratory axis" in " ".join(alone.out.split())
     saved(tmp_path, text(columns(moved)))
     checked = equipoise("import", "run.csv", "--testbed", "nanosat")
-    assert "not checked: a laboratory tilt below 40 deg" in " ".join(
-        checked.out.split()
-    )
+    assert "not checked: a laboratory tilt below 40 deg" in " ".join(checked.out.split())
     saved(tmp_path, text(columns(moved) | accelerations(moved)))
     assert "not checked" not in equipoise("import", "run.csv", "--testbed", "nanosat").out
 

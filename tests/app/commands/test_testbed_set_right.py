@@ -38,7 +38,8 @@ def test_a_body_that_cannot_be_is_said_once(equipoise, flat):
     assert done.err.count("the testbed's inertia is physically inconsistent") == 1
     for command in ("identify", "observe"):
         done = equipoise(command, "run.csv", "--testbed", flat)
-        assert (done.out + done.err).replace("\n", " ").count("inertia is physically inconsistent") == 1
+        printed = (done.out + done.err).replace("\n", " ")
+        assert printed.count("inertia is physically inconsistent") == 1
 
 
 def test_a_body_that_can_be_is_taken_in_silence(equipoise, flat):

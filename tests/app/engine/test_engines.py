@@ -206,5 +206,5 @@ def test_long_pieces_go_one_by_one():
 
 
 def test_a_worker_of_another_version_does_nothing():
-    with pytest.raises(InputError, match=r"found equipoise .*; wanted 0.0.1, as on the sending side"):
+    with pytest.raises(InputError, match=r"found equipoise .*; wanted 0.0.1, as on the send"):
         chunk_done("0.0.1", many_pieces.ending, [0], [0])

@@ -33,7 +33,7 @@ def listening(host: str, port: int) -> socket.socket:
     except OSError as error:
         at.close()
         why = error.strerror or str(error)
-        raise InputError(f"{host}:{port}", why, "an address and a port that are free") from error
+        raise InputError(f"{host}:{port}", why, "a free address and port") from error
     return at
 
 
