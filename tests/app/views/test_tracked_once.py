@@ -65,7 +65,7 @@ def test_the_figure_shows_the_course_of_the_result(moved):
 
 def test_a_balancing_report_runs_the_filter_once(filter_runs, moved):
     done = Balancing(BED, GOAL, (), moved)
-    courses = balancing_courses(done.recording, BED, None, ())
+    courses = balancing_courses(done.recording, BED, None)
     drawn = [*pictures_of_tracking(done, courses), *pictures_of(done, courses)]
     assert len(drawn) == 4
     assert filter_runs == ["fed"]
