@@ -317,6 +317,8 @@ ESTIMATION = (*_of(
     ("output_error/solution.py", "turn, normal, toward, damping, growth)",
      "turn, normal, toward, FIRST, GROWTH)", "estimation/test_search_budget.py"
      "::test_a_descent_in_parts_goes_the_way_of_one_that_is_not_stopped"),
+    ("output_error/input_errors.py", "share = -STEP * first", "share = STEP * first",
+     "estimation/output_error/test_input_errors.py"),
     ("output_error/input_errors.py", "each.direct + covariance @ each.descent",
      "each.direct - covariance @ each.descent", "estimation/output_error/test_input_errors.py"),
     ("output_error/input_errors.py", "np.cross(axis, AXES).T for axis",

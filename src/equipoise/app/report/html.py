@@ -25,6 +25,7 @@ from equipoise.app.text.escaping import for_html
 
 Drawings = Mapping[str, bytes]  # SVG, by name
 TEMPLATE = Template((files("equipoise.app.report") / "page.html").read_text(encoding="utf-8"))
+CELL_STYLE = (files("equipoise.app.report") / "cell.css").read_text(encoding="utf-8").strip()
 
 
 def html(document: Document, drawings: Drawings) -> str:
@@ -37,6 +38,11 @@ def html(document: Document, drawings: Drawings) -> str:
 def fragment(blocks: Iterable[Block]) -> str:
     """Return blocks without figures as a part of a page."""
     return "".join(map(_set, blocks))
+
+
+def notebook_cell(blocks: Iterable[Block]) -> str:
+    """Return blocks without figures as the result of a cell, with a style of its own."""
+    return f'<div class="equipoise"><style>{CELL_STYLE}</style>{fragment(blocks)}</div>'
 
 
 def _section(section: Section, drawings: Drawings) -> str:
