@@ -66,6 +66,10 @@ class AtTerminal:
             assert self._process.poll() is None, self.written
             time.sleep(0.02)
 
+    def type(self, text):
+        """Type a text."""
+        os.write(self._ours, text.encode())
+
     def ctrl_c(self):
         """Do as a terminal does."""
         self.send_all(signal.SIGINT)

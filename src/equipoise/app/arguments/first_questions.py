@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from equipoise.app.console.questions import Question
+from equipoise.app.text.escaping import for_one_line
 from equipoise.estimation.mass_budget.shapes import SQUARES
 from equipoise.io.exchange.body_file import read_foreign_body
 from equipoise.io.testbed.first_testbed import (
@@ -24,7 +25,8 @@ from equipoise.model.units import GRAM, MM
 
 BOX_SD = 0.3  # chosen: a platform is no evenly filled box
 CAD_SD = 0.1  # chosen: usual for CAD without cabling
-SIMULATED, ON_BENCH = "simulate", "bench"
+SIMULATED: Literal["simulate"] = "simulate"
+ON_BENCH: Literal["bench"] = "bench"
 Origin = Path | Literal["simulate", "bench"]
 Given = MassProperties | Vector3  # about C; or edges of a box, m
 
@@ -51,7 +53,7 @@ def read_inertia(text: str) -> tuple[Given, str]:
         return np.array(edges) * MM, f"assumed: an evenly filled box of {text} mm"
     path = Path(text).expanduser()
     body, _ = read_foreign_body(path)
-    return body, f"from {path.name}"
+    return body, f"from {for_one_line(path.name)}"
 
 
 def read_rails(text: str) -> StatedRails:
@@ -76,8 +78,10 @@ def read_attitude(text: str) -> AttitudeSource:
 
 def read_origin(text: str) -> Origin:
     """Return where the recording comes from."""
-    if text == SIMULATED or text == ON_BENCH:
-        return text
+    if text == SIMULATED:
+        return SIMULATED
+    if text == ON_BENCH:
+        return ON_BENCH
     path = Path(text).expanduser()
     if not path.is_file():
         raise InputError("recording", f"no file '{text}'", f"a file, {SIMULATED} or {ON_BENCH}")

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from equipoise.io.testbed.testbed_file import written
+from equipoise.io.toml.write_toml import toml_text
 from equipoise.model.arrays import Vector3
 from equipoise.model.mass_properties import MassProperties, second_moments
 from equipoise.model.units import GRAM, MM, PERCENT, UM
@@ -84,6 +85,7 @@ def first_testbed(answers: FirstAnswers) -> str:
         *(_rail(answers.rails, k, extents) for k in range(len(answers.rails.names))),
         SENSORS[answers.attitude],
         *([TRUTH] if answers.is_simulated else []),
+        _assumed(answers),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -129,6 +131,22 @@ travel_mm = [-{travel}, {travel}]
 resolution_mm = 0.01  # assumed: a stepper on a lead screw
 accuracy_mm = 0.1  # assumed: a lead screw
 speed_mm_s = 10.0  # assumed: a small stepper on a lead screw"""
+
+
+def _assumed(answers: FirstAnswers) -> str:
+    """Return the table that a report shows."""
+    reasons = {
+        "platform.mass_sd_percent": "a bench scale",
+        "platform.inertia_sd_percent": answers.inertia.origin.removeprefix("assumed: "),
+        "platform.com_sd_um": "a platform balanced by hand",
+        "platform.tilt_limit_deg": "a table on a hemisphere",
+        "sensor": f"usual for {answers.attitude}",
+    }
+    if answers.rails.names:
+        reasons["sliding_mass"] = "places at the faces of the platform; a stepper on a lead screw"
+    if answers.is_simulated:
+        reasons["truth"] = "what balancing by hand leaves"
+    return toml_text({"assumed": reasons}).strip()
 
 
 def _numbers(values: Vector3) -> str:
