@@ -8,6 +8,7 @@ what a person types. Machine time is measured, and depends on the machine.
 """
 
 import contextlib
+import os
 import subprocess
 import sys
 import tempfile
@@ -117,12 +118,12 @@ class Newcomer(AtTerminal):
 
 def answered(folder: Path, program: list[str]) -> str:
     """Answer the five questions at a terminal, and return what stood there."""
-    asked = Newcomer(folder, program)
+    person = Newcomer(folder, program)
     for number, answer in enumerate(ANSWERS, start=1):
-        asked.wait_for(f"{number}. ")
-        asked.type(f"{answer}\n")
-    assert asked.ended() == 0, asked.written
-    return stripped(asked.written)
+        person.wait_for(f"{number}. ")
+        person.type(f"{answer}\n")
+    assert person.ended() == 0, person.written
+    return stripped(person.written)
 
 
 def report(done: Walk) -> Iterator[str]:
@@ -146,6 +147,8 @@ def main() -> None:
         folder, python = Path(place), Path(sys.executable)
         begun = time.perf_counter()
         if len(sys.argv) > 1:
+            os.environ.pop("PYTHONPATH", None)  # the wheel alone, and no kernel of before
+            os.environ["NUMBA_CACHE_DIR"] = str(folder / "kernels")
             python = installed(Path(sys.argv[1]).resolve(), folder / "environment")
         setting_up = time.perf_counter() - begun
         done = walk(folder, python)

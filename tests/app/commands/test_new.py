@@ -121,7 +121,7 @@ BAD = {
 
 
 @pytest.mark.parametrize(("number", "answer"), BAD.values(), ids=BAD.keys())
-def test_an_answer_that_cannot_be_read_is_asked_for_again(answering, number, answer):
+def test_an_answer_that_cannot_be_read_leads_to_the_question_again(answering, number, answer):
     lines = [""] * 5
     lines.insert(number, answer)
     done = answering(*lines)
@@ -138,7 +138,7 @@ def test_the_end_of_the_input_writes_nothing(answering, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_nobody_at_the_terminal_is_told_what_to_type(equipoise, tmp_path, monkeypatch):
+def test_without_a_terminal_the_error_names_what_to_type(equipoise, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.StringIO())
     done = equipoise("new")
     assert done.code == 2
@@ -154,20 +154,20 @@ def test_a_file_that_is_there_stays(equipoise):
 
 
 def test_every_question_has_a_default_that_can_be_read():
-    asked = [
+    found = [
         each for each in vars(first_questions).values() if isinstance(each, questions.Question)
     ]
-    assert len(asked) == 5
-    for question in asked:
+    assert len(found) == 5
+    for question in found:
         question.read(question.default)
 
 
 def test_at_a_terminal_each_question_shows_its_default(tmp_path):
-    asked = AtTerminal(tmp_path, ["new"])
+    terminal = AtTerminal(tmp_path, ["new"])
     for number, default in ((1, "10"), (2, "400 400 300"), (3, "3 100 30"), (4, "imu"),
                             (5, "simulate")):  # fmt: skip
-        asked.wait_for(f"[{default}]: ")
-        assert f"{number}. " in stripped(asked.written)
-        asked.type("\n")
-    assert asked.ended() == 0
+        terminal.wait_for(f"[{default}]: ")
+        assert f"{number}. " in stripped(terminal.written)
+        terminal.type("\n")
+    assert terminal.ended() == 0
     assert (tmp_path / "my.toml").exists()

@@ -104,11 +104,11 @@ RECORDING = Question(
 )
 
 
-def first_choice(ask: Callable[[Question[Any], int], Any]) -> FirstChoice:
-    """Return what a person, or each default, answers; ``ask`` takes a question and its number."""
-    mass = ask(MASS, 1)
-    inertia = stated_inertia(mass, *ask(INERTIA, 2))
-    rails, attitude, origin = ask(RAILS, 3), ask(ATTITUDE, 4), ask(RECORDING, 5)
+def first_choice(answer_to: Callable[[Question[Any], int], Any]) -> FirstChoice:
+    """Return what a person, or each default, answers; ``answer_to`` takes a question and its number."""
+    mass = answer_to(MASS, 1)
+    inertia = stated_inertia(mass, *answer_to(INERTIA, 2))
+    rails, attitude, origin = answer_to(RAILS, 3), answer_to(ATTITUDE, 4), answer_to(RECORDING, 5)
     return FirstChoice(FirstAnswers(mass, inertia, rails, attitude, origin == SIMULATED), origin)
 
 

@@ -17,5 +17,5 @@ class NotebookFigure(Figure):
     def _repr_png_(self) -> bytes:
         """Return the drawing as PNG."""
         drawn = BytesIO()
-        self.savefig(drawn, format="png")
+        self.savefig(drawn, format="png", dpi="figure")
         return drawn.getvalue()
