@@ -105,7 +105,7 @@ RECORDING = Question(
 
 
 def first_choice(answer_to: Callable[[Question[Any], int], Any]) -> FirstChoice:
-    """Return what a person, or each default, answers; ``answer_to`` takes a question and its number."""
+    """Return what a person, or each default, answers to each question and its number."""
     mass = answer_to(MASS, 1)
     inertia = stated_inertia(mass, *answer_to(INERTIA, 2))
     rails, attitude, origin = answer_to(RAILS, 3), answer_to(ATTITUDE, 4), answer_to(RECORDING, 5)
