@@ -4,7 +4,8 @@
 
 With a wheel, the path begins in a fresh virtual environment; without one, at this Python. What a
 person reads is counted (README's section on installing, the tutorial, what the commands print), and
-what a person types. Machine time is measured, and depends on the machine.
+what a person types. Machine time is processor time of the commands, so that a machine with other
+work states it alike; it depends on the machine.
 """
 
 import contextlib
@@ -12,7 +13,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 import venv
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -40,7 +40,7 @@ class Walk:
 
     texts: list[str] = field(default_factory=list)  # read
     typed: list[str] = field(default_factory=list)
-    seconds: dict[str, float] = field(default_factory=dict)  # of the machine, on the clock
+    seconds: dict[str, float] = field(default_factory=dict)  # of a processor
 
     @property
     def words(self) -> int:
@@ -64,15 +64,21 @@ class Walk:
 
     @property
     def machine(self) -> float:
-        """Minutes of the machine, on the clock."""
+        """Minutes of a processor."""
         return sum(self.seconds.values()) / 60
 
     @contextlib.contextmanager
     def timed(self, what: str) -> Iterator[None]:
         """Count the time of a step."""
-        begun = time.perf_counter()
+        begun = processor_time()
         yield
-        self.seconds[what] = time.perf_counter() - begun
+        self.seconds[what] = processor_time() - begun
+
+
+def processor_time() -> float:
+    """Return processor time (s) of the programs that were started here and have ended."""
+    spent = os.times()
+    return spent.children_user + spent.children_system
 
 
 def section(page: str, title: str) -> str:
@@ -131,7 +137,7 @@ def report(done: Walk) -> Iterator[str]:
     yield f"{done.words} words to read: {done.reading:.1f} min at {READING:g} words a minute"
     yield f"{done.letters} keys to press: {done.typing:.1f} min at {TYPING:g} words a minute"
     for what, seconds in done.seconds.items():
-        yield f"{what}: {seconds:.1f} s of this machine"
+        yield f"{what}: {seconds:.1f} s of a processor"
     person = done.reading + done.typing
     for what, minutes, claimed in (
         ("reading and typing", person, CLAIMED_PERSON),
@@ -145,12 +151,12 @@ def main() -> None:
     """Walk the path, and print what it takes."""
     with tempfile.TemporaryDirectory() as place:
         folder, python = Path(place), Path(sys.executable)
-        begun = time.perf_counter()
+        begun = processor_time()
         if len(sys.argv) > 1:
             os.environ.pop("PYTHONPATH", None)  # the wheel alone, and no kernel of before
             os.environ["NUMBA_CACHE_DIR"] = str(folder / "kernels")
             python = installed(Path(sys.argv[1]).resolve(), folder / "environment")
-        setting_up = time.perf_counter() - begun
+        setting_up = processor_time() - begun
         done = walk(folder, python)
         done.seconds = {"environment and installation": setting_up} | done.seconds
     sys.stdout.write("\n".join([*report(done), ""]))
