@@ -17,7 +17,7 @@ PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
 SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench scale verify mutants lint format rooms docs wheel pins clean
+.PHONY: help demo test bench scale verify mutants lint format rooms docs wheel newcomer pins clean
 .DELETE_ON_ERROR:
 
 help:  ## list the targets
@@ -72,6 +72,9 @@ wheel: $(TEST) $(VENDORED)  ## build a wheel in dist, with kernels compiled ahea
 	@NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES= NUMBA_CACHE_DIR=$(abspath build/kernels) $(BIN)/equipoise precompile
 	@cp -r build/kernels/equipoise-kernels $(KERNELS)
 	@$(BIN)/python -m hatchling build --target wheel
+
+newcomer: wheel  ## follow a newcomer's path with the wheel in a fresh environment, and time it
+	@$(BIN)/python -m tests.docs.newcomer dist/*.whl
 
 clean:  ## remove the environment, caches and outputs
 	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis .benchmarks

@@ -22,13 +22,15 @@ PATIENCE = 120.0  # s
 class AtTerminal:
     """A command whose stderr, and stdout unless that goes elsewhere, is a pseudo terminal."""
 
+    program = PROGRAM
+
     def __init__(self, folder, words, size=(80, 24), environment=None, stdout=None):
         ours, theirs = pty.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", size[1], size[0], 0, 0))
         free = {name: value for name, value in os.environ.items() if name not in NOT_OURS}
         environment = {"TERM": "xterm-256color", "EQUIPOISE_RUNS": ""} | (environment or {})
         self._process = subprocess.Popen(
-            [*PROGRAM, *map(str, words)], cwd=folder, env=free | environment,
+            [*self.program, *map(str, words)], cwd=folder, env=free | environment,
             stdin=theirs, stderr=theirs, stdout=theirs if stdout is None else stdout,
             start_new_session=True,
         )  # fmt: skip
@@ -65,6 +67,10 @@ class AtTerminal:
                 raise TimeoutError(self.written)
             assert self._process.poll() is None, self.written
             time.sleep(0.02)
+
+    def type(self, text):
+        """Type a text."""
+        os.write(self._ours, text.encode())
 
     def ctrl_c(self):
         """Do as a terminal does."""

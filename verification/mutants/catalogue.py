@@ -319,6 +319,12 @@ ESTIMATION = (*_of(
     ("output_error/solution.py", "turn, normal, toward, damping, growth)",
      "turn, normal, toward, FIRST, GROWTH)", "estimation/test_search_budget.py"
      "::test_a_descent_in_parts_goes_the_way_of_one_that_is_not_stopped"),
+    ("testbed/first_testbed.py", "np.sqrt(12 * np.diag", "np.sqrt(6 * np.diag",
+     "app/commands/test_new.py::test_the_defaults_make_a_platform_by_hand"),
+    ("testbed/first_testbed.py", "(1 if number < 3 else -1)", "(1 if number < 3 else 1)",
+     "app/commands/test_new.py::test_six_masses_stand_opposite_each_other"),
+    ("output_error/input_errors.py", "share = -STEP * first", "share = STEP * first",
+     "estimation/output_error/test_input_errors.py"),
     ("output_error/input_errors.py", "each.direct + covariance @ each.descent",
      "each.direct - covariance @ each.descent", "estimation/output_error/test_input_errors.py"),
     ("output_error/input_errors.py", "np.cross(axis, AXES).T for axis",

@@ -62,6 +62,22 @@ def test_a_record_is_tables_in_a_notebook(kind, returned):
     assert tags.tables >= 1
 
 
+def test_a_result_of_a_cell_brings_its_style_and_touches_nothing_else(returned):
+    cell = returned.results["Estimate"]._repr_html_()
+    style = cell.split("<style>")[1].split("</style>")[0].split("*/")[1]
+    selectors = [rule.split("{")[0] for rule in style.split("}") if rule.strip()]
+    assert len(selectors) > 10
+    assert all(s.strip().startswith(".equipoise") for each in selectors for s in each.split(","))
+    assert [word for word in ("url(", "@import", "http", "<script") if word in cell] == []
+    assert 'class="verdict' in cell
+
+
+def test_a_figure_is_the_result_of_a_cell(returned):
+    """No figure here belongs to pyplot, so IPython would print its name alone."""
+    figure = returned.results["Estimate"].plot()
+    assert figure._repr_png_().startswith(b"\x89PNG")
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_document_is_json_with_its_schema(kind, returned):
     document = returned.results[kind].to_dict()

@@ -57,10 +57,10 @@ def text(record: Shown) -> str:
 
 
 def html(record: Shown) -> str:
-    """Return tables and sentences as HTML, in the bench's units."""
-    from equipoise.app.report.html import fragment
+    """Return tables and sentences as HTML with its own style, in the bench's units."""
+    from equipoise.app.report.html import notebook_cell
 
-    return fragment(viewed(record, "blocks"))
+    return notebook_cell(viewed(record, "blocks"))
 
 
 def document(record: Shown) -> dict[str, Any]:

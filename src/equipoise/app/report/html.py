@@ -31,6 +31,7 @@ Drawings = Mapping[str, bytes]  # SVG, by name
 PLAIN = ' !"$()*+,-./:;<=>?@[]^_`{|}~'  # letters of a data: address that stand for themselves
 PATH, LONG = re.compile(rb' d="[^"]*"'), re.compile(rb"(\.\d\d)\d+")
 TEMPLATE = Template((files("equipoise.app.report") / "page.html").read_text(encoding="utf-8"))
+CELL_STYLE = (files("equipoise.app.report") / "cell.css").read_text(encoding="utf-8").strip()
 
 
 def html(document: Document, drawings: Drawings) -> str:
@@ -57,6 +58,11 @@ def _scripts(modules: str) -> str:
 def fragment(blocks: Iterable[Block]) -> str:
     """Return blocks without figures as a part of a page."""
     return "".join(map(_set, blocks))
+
+
+def notebook_cell(blocks: Iterable[Block]) -> str:
+    """Return blocks without figures as the result of a cell, with a style of its own."""
+    return f'<div class="equipoise"><style>{CELL_STYLE}</style>{fragment(blocks)}</div>'
 
 
 def _section(section: Section, drawings: Drawings) -> str:

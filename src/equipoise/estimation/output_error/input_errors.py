@@ -164,7 +164,7 @@ def clocks_varied(recording: Recording, testbed: Testbed) -> Iterator[Varied]:
     camera = recording.attitude
     first = testbed.gyro if camera is None else testbed.attitude
     if first is not None:
-        share = STEP * first.clock_sd
+        share = -STEP * first.clock_sd  # a gyro's row at a corner stays behind it, where it counts
         kept = recording if camera is not None else by_gyros_clock(recording, share)
         yield Varied("clock", first.clock_sd, replace(
             kept,

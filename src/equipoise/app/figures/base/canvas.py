@@ -31,14 +31,14 @@ def load() -> None:
 def laid_out(width: float, height: float) -> Figure:
     """Return a figure of so many inches that finds the places of its panels and texts itself."""
     load()
-    from matplotlib.figure import Figure
+    from equipoise.app.figures.base.notebook_figure import NotebookFigure
 
-    return Figure(figsize=(width, height), layout="constrained")
+    return NotebookFigure(figsize=(width, height), layout="constrained")
 
 
 def sheet(width: float, height: float, dpi: float | None = None) -> Figure:
     """Return a figure of so many inches on which each thing is placed where it is set."""
     load()
-    from matplotlib.figure import Figure
+    from equipoise.app.figures.base.notebook_figure import NotebookFigure
 
-    return Figure(figsize=(width, height), dpi=dpi)
+    return NotebookFigure(figsize=(width, height), dpi=dpi)
