@@ -1,4 +1,4 @@
-# `make help` lists the targets. Only git, make and Python 3.11 or later are needed beforehand;
+# `make help` lists the targets. Only git, make and Python 3.11 to 3.14 are needed beforehand;
 # uv is used when it is there, pip otherwise. The environment lives in .venv and is touched
 # again only when constraints.txt or pyproject.toml change.
 
@@ -12,9 +12,9 @@ VENDOR := src/equipoise/app/dashboard/static/vendor
 VENDORED := $(VENDOR)/uPlot.min.css
 KERNELS := src/equipoise/maths/kernels/ready
 
-# Every Python that numba has wheels for; the first that answers is taken.
-PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
-SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
+# The Pythons that every pin has a wheel for; the first that answers is taken.
+PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python
+SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 14))
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test bench scale verify mutants lint format rooms wheel pins clean
@@ -95,14 +95,14 @@ define make_venv
 		$$python -c 'import venv, ensurepip' 2>/dev/null && able=$$python && break; \
 	done; \
 	if test -n "$(UV)"; then \
-		"$(UV)" venv --quiet --clear --python "$${found:->=3.11,<3.16}" $(VENV); \
+		"$(UV)" venv --quiet --clear --python "$${found:->=3.11,<3.15}" $(VENV); \
 	elif test -n "$$able"; then \
 		$$able -m venv --clear $(VENV); \
 	elif test -n "$$found"; then \
 		echo "$$found has no venv module: install python3-venv (Debian, Ubuntu) or uv" >&2; \
 		exit 1; \
 	else \
-		echo 'Python 3.11 to 3.15 is needed and none was found: install python3 or uv' >&2; \
+		echo 'Python 3.11 to 3.14 is needed and none was found: install python3 or uv' >&2; \
 		exit 1; \
 	fi
 endef

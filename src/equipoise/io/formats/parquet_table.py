@@ -113,7 +113,8 @@ def parquet_of_cells(columns: Mapping[str, Sequence[Any]], source: str) -> bytes
 
 
 def _written(arrays: Mapping[str, Any], source: str) -> bytes:
-    pyarrow, parquet = pyarrow_library("pyarrow", source), pyarrow_library("pyarrow.parquet", source)
+    pyarrow = pyarrow_library("pyarrow", source)
+    parquet = pyarrow_library("pyarrow.parquet", source)
     stream = io.BytesIO()
     parquet.write_table(pyarrow.table(arrays), stream)
     return stream.getvalue()
