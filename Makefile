@@ -5,8 +5,9 @@
 VENV := .venv
 BIN := $(VENV)/bin
 RUN := $(VENV)/.ready-to-run
+SHOW := $(VENV)/.ready-to-show
 TEST := $(VENV)/.ready-to-test
-LINTED := src tests $(wildcard benchmarks verification)
+LINTED := src tests hatch_build.py packaging web $(wildcard benchmarks verification)
 UV := $(shell command -v uv 2>/dev/null)
 VENDOR := src/equipoise/app/dashboard/static/vendor
 VENDORED := $(VENDOR)/uPlot.min.css
@@ -23,8 +24,11 @@ SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 14)
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' Makefile
 
-demo: $(RUN) $(VENDORED)  ## identify and balance a simulated microsatellite mock-up
+demo: $(SHOW) $(VENDORED)  ## identify and balance a simulated microsatellite mock-up
 	@$(BIN)/equipoise demo
+	@echo
+	@echo 'Open the report:      equipoise-out/demo/report.html (on paper: report.pdf)'
+	@echo 'Start the dashboard:  $(BIN)/equipoise dashboard'
 
 # A worker more than cores, since some tests wait for a page or a bench in real time.
 # Tests start many programs: each would compile all modules again if nobody kept the bytecode.
@@ -75,8 +79,9 @@ clean:  ## remove the environment, caches and outputs
 	find src tests -name __pycache__ -prune -exec rm -rf {} +
 
 # --- The environment -------------------------------------------------------------------------
-# constraints.txt has two parts: what running needs, then what only testing needs. The closure
-# is complete, so nothing is resolved here: each line is fetched and checked against its hashes.
+# constraints.txt has three parts: what running needs, what PDF and dashboard (the demo's extras)
+# need beside it, and what only testing needs. The closure is complete, so nothing is resolved here:
+# each line is fetched and checked against its hashes.
 
 ifneq ($(UV),)
 INSTALL := $(UV) pip install --quiet --python $(BIN)/python
@@ -110,9 +115,15 @@ endef
 $(RUN): constraints.txt pyproject.toml
 	@echo 'Making the environment in $(VENV): what running needs ...'
 	@$(make_venv)
-	@sed '/^# To test/,$$d' constraints.txt > $(VENV)/to-run.txt
+	@sed '/^# To show/,$$d' constraints.txt > $(VENV)/to-run.txt
 	@$(INSTALL) --require-hashes --no-deps -r $(VENV)/to-run.txt
 	@$(INSTALL) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(SHOW): $(RUN)
+	@echo 'Adding to $(VENV) what PDF and dashboard need ...'
+	@sed '1,/^# To show/d; /^# To test/,$$d' constraints.txt > $(VENV)/to-show.txt
+	@$(INSTALL) --require-hashes --no-deps -r $(VENV)/to-show.txt
 	@touch $@
 
 $(TEST): $(RUN)
@@ -133,6 +144,7 @@ $(VENDORED): web/package-lock.json web/package.json | $(RUN)
 COMPILE := uv pip compile pyproject.toml --quiet --universal --python-version 3.11 \
 	--generate-hashes --no-annotate --no-header --no-emit-index-url --no-emit-find-links
 EXTRAS := $(foreach extra,analysis parquet excel matlab hardware mavlink camera logs report dashboard cluster notebook,--extra $(extra))
+DEMO_EXTRAS := --extra report --extra dashboard
 # Blocks of the second file whose name==version is (wanted=1) or is not (wanted=0) in the first.
 PICK := awk 'NR == FNR { first[$$1]; next } \
 	!/^ / { keep = (($$1 in first) == wanted) } keep'
@@ -142,12 +154,16 @@ pins:  ## resolve all versions anew and write constraints.txt (needs uv)
 	@set -e; work=$$(mktemp -d); trap 'rm -rf "$$work"' EXIT; \
 	$(COMPILE) --upgrade --group build --group dev --group docs $(EXTRAS) -o $$work/all.txt; \
 	$(COMPILE) --group build --constraints $$work/all.txt -o $$work/run.txt; \
+	$(COMPILE) --group build $(DEMO_EXTRAS) --constraints $$work/all.txt -o $$work/show.txt; \
+	$(PICK) wanted=0 $$work/run.txt $$work/all.txt > $$work/more.txt; \
 	{ \
 		echo '# Written by `make pins`: names, versions and hashes, for every platform.'; \
 		echo '# To run'; \
 		$(PICK) wanted=1 $$work/run.txt $$work/all.txt; \
+		echo '# To show'; \
+		$(PICK) wanted=1 $$work/show.txt $$work/more.txt; \
 		echo '# To test'; \
-		$(PICK) wanted=0 $$work/run.txt $$work/all.txt; \
+		$(PICK) wanted=0 $$work/show.txt $$work/more.txt; \
 	} > $$work/constraints.txt; \
 	mv $$work/constraints.txt constraints.txt
 	@echo "constraints.txt: $$(grep -c == constraints.txt) pins"
