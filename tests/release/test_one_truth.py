@@ -1,7 +1,9 @@
 """What packaging says in several places is the same, and what it names exists."""
 
 import re
+import sys
 import tomllib
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 import pytest
@@ -67,6 +69,14 @@ def test_all_has_every_extra_but_those_that_it_leaves_out():
     (line,) = extras["all"]
     named = set(re.fullmatch(r"equipoise\[(.*)\]", line).group(1).split(","))
     assert named == set(extras) - {"all", "mavlink", "peers"}
+
+
+def test_the_check_of_a_wheel_has_a_command_for_every_extra():
+    spec = spec_from_file_location("check_wheel", ROOT / "packaging/check_wheel.py")
+    check_wheel = sys.modules[spec.name] = module_from_spec(spec)
+    spec.loader.exec_module(check_wheel)
+    tried = set(check_wheel.NEEDS) | check_wheel.NOT_OF_COMMANDS
+    assert tried == set(PROJECT["optional-dependencies"])
 
 
 @pytest.mark.parametrize("workflow", WORKFLOWS, ids=lambda path: path.name)
