@@ -25,7 +25,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "build/check_wheel.png"
-LONGEST = 900.0  # s, chosen: to install all extras, or compile all kernels, on a slow computer
+LONGEST = 1800.0  # s, chosen: to install all extras, or compile all kernels, on a slow computer
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 INSTALLED_BROWSERS = (
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
@@ -59,9 +59,10 @@ NOT_OF_COMMANDS = {"all", "notebook", "peers"}
 TO_PANDAS = """
 import sys
 import equipoise as eq
+from equipoise.model.errors import InputError
 try:
-    eq.simulate("nanosat", duration=1.0).to_pandas()
-except eq.EquipoiseError as error:
+    eq.read_recording("swing.csv").to_pandas()
+except InputError as error:
     print(error, file=sys.stderr)
     sys.exit(2)
 """

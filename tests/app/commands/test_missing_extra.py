@@ -19,8 +19,16 @@ PATIENCE = 120.0  # s, chosen: for a command that goes on for ever instead
 ROOT = Path(__file__).parents[3]
 # Python runs a module of this name first, in the processes that a command starts too.
 MISSING = """
+import importlib.metadata as metadata
 import os, sys
-sys.modules[os.environ["MISSING_LIBRARY"]] = None  # as if it were not installed
+library, package = os.environ["MISSING_LIBRARY"], os.environ["MISSING_PACKAGE"]
+sys.modules[library] = None  # as if it were not installed
+stated = metadata.version
+def version(name):
+    if name == package:
+        raise metadata.PackageNotFoundError(name)
+    return stated(name)
+metadata.version = version
 """
 WITH_NICEGUI = ("uvicorn", "starlette", "fastapi", "jinja2")
 # Modules that differ in name from what is installed.
@@ -110,10 +118,12 @@ def folder(tmp_path_factory):
 
 def command(words: tuple[str, ...], folder: Path, missing: str) -> subprocess.CompletedProcess[str]:
     """Run a command where a library is not installed."""
+    package = {module: name for name, module in MODULES.items()}.get(missing, missing)
+    blocked = {"MISSING_LIBRARY": missing, "MISSING_PACKAGE": package}
     paths = os.pathsep.join((str(folder), *filter(None, sys.path)))
     return subprocess.run(
         (*EQUIPOISE, *words),
-        cwd=folder, env=os.environ | {"PYTHONPATH": paths, "MISSING_LIBRARY": missing},
+        cwd=folder, env=os.environ | {"PYTHONPATH": paths} | blocked,
         capture_output=True, text=True, check=False, timeout=PATIENCE,
     )  # fmt: skip
 
