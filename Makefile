@@ -1,20 +1,21 @@
-# `make help` lists the targets. Only git, make and Python 3.11 or later are needed beforehand;
+# `make help` lists the targets. Only git, make and Python 3.11 to 3.14 are needed beforehand;
 # uv is used when it is there, pip otherwise. The environment lives in .venv and is touched
 # again only when constraints.txt or pyproject.toml change.
 
 VENV := .venv
 BIN := $(VENV)/bin
 RUN := $(VENV)/.ready-to-run
+SHOW := $(VENV)/.ready-to-show
 TEST := $(VENV)/.ready-to-test
-LINTED := src tests $(wildcard benchmarks verification) docs/conf.py docs/site
+LINTED := src tests hatch_build.py packaging web $(wildcard benchmarks verification) docs/conf.py docs/site
 UV := $(shell command -v uv 2>/dev/null)
 VENDOR := src/equipoise/app/dashboard/static/vendor
 VENDORED := $(VENDOR)/uPlot.min.css
 KERNELS := src/equipoise/maths/kernels/ready
 
-# Every Python that numba has wheels for; the first that answers is taken.
-PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
-SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
+# The Pythons that every pin has a wheel for; the first that answers is taken.
+PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python
+SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 14))
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test bench scale verify mutants lint format rooms docs wheel newcomer pins clean
@@ -23,8 +24,11 @@ SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15)
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' Makefile
 
-demo: $(RUN) $(VENDORED)  ## identify and balance a simulated microsatellite mock-up
+demo: $(SHOW) $(VENDORED)  ## identify and balance a simulated microsatellite mock-up
 	@$(BIN)/equipoise demo
+	@echo
+	@echo 'Open the report:      equipoise-out/demo/report.html (on paper: report.pdf)'
+	@echo 'Start the dashboard:  $(BIN)/equipoise dashboard'
 
 # A worker more than cores, since some tests wait for a page or a bench in real time.
 # Tests start many programs: each would compile all modules again if nobody kept the bytecode.
@@ -82,8 +86,9 @@ clean:  ## remove the environment, caches and outputs
 	find src tests -name __pycache__ -prune -exec rm -rf {} +
 
 # --- The environment -------------------------------------------------------------------------
-# constraints.txt has two parts: what running needs, then what only testing needs. The closure
-# is complete, so nothing is resolved here: each line is fetched and checked against its hashes.
+# constraints.txt has three parts: what running needs, what PDF and dashboard (the demo's extras)
+# need beside it, and what only testing needs. The closure is complete, so nothing is resolved here:
+# each line is fetched and checked against its hashes.
 
 ifneq ($(UV),)
 INSTALL := $(UV) pip install --quiet --python $(BIN)/python
@@ -102,14 +107,14 @@ define make_venv
 		$$python -c 'import venv, ensurepip' 2>/dev/null && able=$$python && break; \
 	done; \
 	if test -n "$(UV)"; then \
-		"$(UV)" venv --quiet --clear --python "$${found:->=3.11,<3.16}" $(VENV); \
+		"$(UV)" venv --quiet --clear --python "$${found:->=3.11,<3.15}" $(VENV); \
 	elif test -n "$$able"; then \
 		$$able -m venv --clear $(VENV); \
 	elif test -n "$$found"; then \
 		echo "$$found has no venv module: install python3-venv (Debian, Ubuntu) or uv" >&2; \
 		exit 1; \
 	else \
-		echo 'Python 3.11 to 3.15 is needed and none was found: install python3 or uv' >&2; \
+		echo 'Python 3.11 to 3.14 is needed and none was found: install python3 or uv' >&2; \
 		exit 1; \
 	fi
 endef
@@ -117,9 +122,15 @@ endef
 $(RUN): constraints.txt pyproject.toml
 	@echo 'Making the environment in $(VENV): what running needs ...'
 	@$(make_venv)
-	@sed '/^# To test/,$$d' constraints.txt > $(VENV)/to-run.txt
+	@sed '/^# To show/,$$d' constraints.txt > $(VENV)/to-run.txt
 	@$(INSTALL) --require-hashes --no-deps -r $(VENV)/to-run.txt
 	@$(INSTALL) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(SHOW): $(RUN)
+	@echo 'Adding to $(VENV) what PDF and dashboard need ...'
+	@sed '1,/^# To show/d; /^# To test/,$$d' constraints.txt > $(VENV)/to-show.txt
+	@$(INSTALL) --require-hashes --no-deps -r $(VENV)/to-show.txt
 	@touch $@
 
 $(TEST): $(RUN)
@@ -140,6 +151,7 @@ $(VENDORED): web/package-lock.json web/package.json | $(RUN)
 COMPILE := uv pip compile pyproject.toml --quiet --universal --python-version 3.11 \
 	--generate-hashes --no-annotate --no-header --no-emit-index-url --no-emit-find-links
 EXTRAS := $(foreach extra,analysis parquet excel matlab hardware mavlink camera logs report dashboard cluster notebook,--extra $(extra))
+DEMO_EXTRAS := --extra report --extra dashboard
 # Blocks of the second file whose name==version is (wanted=1) or is not (wanted=0) in the first.
 PICK := awk 'NR == FNR { first[$$1]; next } \
 	!/^ / { keep = (($$1 in first) == wanted) } keep'
@@ -149,12 +161,16 @@ pins:  ## resolve all versions anew and write constraints.txt (needs uv)
 	@set -e; work=$$(mktemp -d); trap 'rm -rf "$$work"' EXIT; \
 	$(COMPILE) --upgrade --group build --group dev --group docs $(EXTRAS) -o $$work/all.txt; \
 	$(COMPILE) --group build --constraints $$work/all.txt -o $$work/run.txt; \
+	$(COMPILE) --group build $(DEMO_EXTRAS) --constraints $$work/all.txt -o $$work/show.txt; \
+	$(PICK) wanted=0 $$work/run.txt $$work/all.txt > $$work/more.txt; \
 	{ \
 		echo '# Written by `make pins`: names, versions and hashes, for every platform.'; \
 		echo '# To run'; \
 		$(PICK) wanted=1 $$work/run.txt $$work/all.txt; \
+		echo '# To show'; \
+		$(PICK) wanted=1 $$work/show.txt $$work/more.txt; \
 		echo '# To test'; \
-		$(PICK) wanted=0 $$work/run.txt $$work/all.txt; \
+		$(PICK) wanted=0 $$work/show.txt $$work/more.txt; \
 	} > $$work/constraints.txt; \
 	mv $$work/constraints.txt constraints.txt
 	@echo "constraints.txt: $$(grep -c == constraints.txt) pins"

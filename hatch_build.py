@@ -11,7 +11,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "web"))
-import page_libraries  # noqa: E402
+import page_libraries
 
 
 class PageLibraries(BuildHookInterface):  # type: ignore[type-arg]

@@ -2,9 +2,9 @@
 
     python packaging/release.py v0.2.0
 
-The tag has to be the version of ``model/version.py``, of ``pyproject.toml`` and of ``CITATION.cff``,
-and the changelog has to have a section of it. The wheel is built from the source archive, so that
-the archive is known to hold all that it takes. All goes to ``dist``.
+The tag has to be the version in ``model/version.py``, ``pyproject.toml``, ``CITATION.cff`` and the
+conda recipe, and the changelog has to have a section of it. The wheel is built from the source
+archive, so that the archive is known to hold all that it takes. All goes to ``dist``.
 """
 
 import hashlib
@@ -20,6 +20,7 @@ VERSIONS = {
     "src/equipoise/model/version.py": r'__version__ = "([^"]+)"',
     "pyproject.toml": r'^version = "([^"]+)"',
     "CITATION.cff": r"^version: (\S+)",
+    "packaging/conda/recipe.yaml": r'^  version: "([^"]+)"',
 }
 
 
@@ -48,7 +49,9 @@ def check_version(name: str, pattern: str, version: str) -> None:
 
 def section_of(changelog: str, version: str) -> str:
     """Return what the changelog says of a version, without its heading."""
-    found = re.search(rf"^## {re.escape(version)}\b[^\n]*\n(.*?)(?=^## |\Z)", changelog, re.M | re.S)
+    found = re.search(
+        rf"^## {re.escape(version)}\b[^\n]*\n(.*?)(?=^## |\Z)", changelog, re.M | re.S
+    )
     if found is None:
         sys.exit(f"CHANGELOG.md: found no section '## {version}'; wanted one")
     return found.group(1).strip() + "\n"
@@ -59,7 +62,16 @@ def build(source: Path, target: str) -> None:
     if target == "sdist":
         words = ["-m", "hatchling", "build", "--target", "sdist", "--directory", str(DIST)]
     else:
-        words = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", str(DIST), str(source)]
+        words = [
+            "-m",
+            "pip",
+            "wheel",
+            "--quiet",
+            "--no-deps",
+            "--wheel-dir",
+            str(DIST),
+            str(source),
+        ]
     subprocess.run([sys.executable, *words], cwd=ROOT, check=True)
 
 

@@ -161,5 +161,5 @@ def test_an_archive_with_a_password_is_refused(tmp_path):
 
 def test_without_zstandard_the_sentence_names_the_extra(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "zstandard", None)
-    with pytest.raises(InputError, match=r"pip install equipoise\[logs\]`, or unpack it"):
+    with pytest.raises(InputError, match=r'pip install "equipoise\[logs\]"`, or unpack it'):
         read(tmp_path, zstd(CSV), "run.csv.zst")

@@ -93,7 +93,7 @@ def test_a_sheet_that_states_a_place_beyond_all_is_refused(monkeypatch):
 def test_without_openpyxl_the_sentence_names_the_extra(tmp_path, monkeypatch):
     (tmp_path / "run.xlsx").write_bytes(workbook({"run": RATE_SHEET}))
     monkeypatch.setitem(sys.modules, "openpyxl", None)
-    with pytest.raises(InputError, match=r"pip install equipoise\[excel\]`, or save .* as CSV"):
+    with pytest.raises(InputError, match=r'pip install "equipoise\[excel\]"`, or save .* as CSV'):
         read_recording(tmp_path / "run.xlsx")
 
 

@@ -182,7 +182,7 @@ def test_a_matrix_of_version_4_that_is_cut_is_refused():
 def test_without_h5py_the_sentence_names_the_extra(tmp_path, monkeypatch):
     (tmp_path / "run.mat").write_bytes(mat_73(SIMPLE))
     monkeypatch.setitem(sys.modules, "h5py", None)
-    with pytest.raises(InputError, match=r"pip install equipoise\[matlab\]`.*'-v7'"):
+    with pytest.raises(InputError, match=r'pip install "equipoise\[matlab\]"`.*.-v7.'):
         read_recording(tmp_path / "run.mat")
 
 

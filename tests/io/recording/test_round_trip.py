@@ -196,8 +196,8 @@ def test_values_that_are_not_finite_are_refused(tmp_path) -> None:
 def test_without_pyarrow_the_sentence_names_the_extra(tmp_path, monkeypatch) -> None:
     """The extra is named both on writing and on reading."""
     monkeypatch.setitem(sys.modules, "pyarrow.parquet", None)
-    with pytest.raises(InputError, match=r"pip install equipoise\[parquet\]"):
+    with pytest.raises(InputError, match=r'pip install "equipoise\[parquet\]"'):
         write_recording(simple(), tmp_path / "r.parquet")
     (tmp_path / "r.parquet").write_bytes(b"PAR1....PAR1")
-    with pytest.raises(InputError, match=r"pip install equipoise\[parquet\]"):
+    with pytest.raises(InputError, match=r'pip install "equipoise\[parquet\]"'):
         read_recording(tmp_path / "r.parquet")

@@ -50,7 +50,7 @@ def dashboard(
         is then also required to observe. Left out: this computer only.
     """
     from equipoise.app.arguments.checks import seed_of
-    from equipoise.io.formats.optional_libraries import extra_library
+    from equipoise.model.optional_libraries import extra_library
 
     if not 0 <= port < 65536:
         raise InputError("--port", str(port), "0 to 65535")

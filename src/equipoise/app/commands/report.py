@@ -3,14 +3,13 @@
 from pathlib import Path
 
 from equipoise.app.arguments.options import Flag
-from equipoise.app.console.terminal import busy, show_paths
+from equipoise.app.console.terminal import busy
 
 
 def report(run: Path, /, *, png: Flag = False) -> int:
     """Rebuild the report of a run.
 
-    A run that was made without typst has no PDF: install it (pip install equipoise[report]), then
-    use this.
+    A run that was made without typst has no PDF. Type `pip install "equipoise[report]"` first.
 
     Parameters
     ----------
@@ -20,8 +19,9 @@ def report(run: Path, /, *, png: Flag = False) -> int:
         Also write each figure as PNG, 300 pixels per inch.
     """
     with busy("setting the report", announce=False):
+        from equipoise.app.logbook.output import show_report
         from equipoise.app.report.write import set_again
 
         paths = set_again(run, as_png=png)
-    show_paths(paths)
+    show_report(paths)
     return 0

@@ -11,8 +11,8 @@ from contextlib import contextmanager
 from typing import Any
 
 from equipoise.app.engine.pool import Pool
-from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.model.errors import InputError
+from equipoise.model.optional_libraries import extra_library
 
 DEADLINE = 10.0  # s, chosen: a scheduler that runs answers within one
 RECOUNTED = 1.0  # s, chosen: workers come and go slowly

@@ -1,10 +1,12 @@
 """What every command does with its result: print its blocks or its JSON, and write it down."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from equipoise.app.console.rich_blocks import show
 from equipoise.app.console.terminal import busy, print_whole, show_paths, stderr
 from equipoise.app.logbook.run_folder import own_folder
+from equipoise.app.report.pdf import NO_PDF, can_set
 from equipoise.app.report.run_record import Output
 from equipoise.app.report.write import write_output
 from equipoise.app.text.blocks import Blocks
@@ -29,7 +31,14 @@ def hand_over(output: Output, json: bool, out: Path | None, below: bool = False)
     if out is not None:
         with busy("drawing"):
             paths = write_output(output, out)
-        show_paths(paths, json)
+        show_report(paths, json)
+
+
+def show_report(paths: Sequence[Path], aside: bool = False) -> None:
+    """Say what was written, and why no PDF is among it."""
+    show_paths(paths, aside)
+    if not can_set():
+        stderr().print(NO_PDF, soft_wrap=True, markup=False)
 
 
 def hand_over_run(

@@ -2,13 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 
 from equipoise.model.arrays import Floats
-from equipoise.model.errors import InputError
+from equipoise.model.optional_libraries import extra_library
 
 # Columns of the same length by name; the first one names the rows.
 Table = Mapping[str, Sequence[Any] | Floats]
@@ -41,13 +40,13 @@ def of_table(table: Table) -> Arrays:
 
 def to_frame(table: Table) -> Any:
     """Return a ``pandas.DataFrame`` with its index. Raises InputError where pandas is missing."""
-    pandas = analysis_library("pandas", "to_pandas")
+    pandas = extra_library("pandas", "to_pandas", "a DataFrame", "analysis")
     return pandas.DataFrame(dict(table)).set_index(next(iter(table)))
 
 
 def to_dataset(arrays: Arrays) -> Any:
     """Return an ``xarray.Dataset``. Raises InputError where xarray is missing."""
-    xarray = analysis_library("xarray", "to_xarray")
+    xarray = extra_library("xarray", "to_xarray", "a Dataset", "analysis")
     parts = (_with_units(arrays.variables), _with_units(arrays.coordinates))
     return xarray.Dataset(*parts, dict(arrays.attributes))
 
@@ -57,12 +56,3 @@ def _with_units(of: Mapping[str, Variable]) -> dict[str, Any]:
         name: (each.dims, np.asarray(each.values), {"units": each.unit} if each.unit else {})
         for name, each in of.items()
     }
-
-
-def analysis_library(name: str, where: str) -> Any:
-    """Return a library of the extra ``analysis``; InputError names ``where`` it was needed."""
-    try:
-        return import_module(name)
-    except ImportError as error:
-        wanted = "the analysis extra: `pip install equipoise[analysis]`"
-        raise InputError(where, f"no library '{name}'", wanted) from error

@@ -12,13 +12,15 @@ from equipoise.app.text.blocks import Document
 from equipoise.app.text.escaping import for_typst
 from equipoise.app.text.still import still
 from equipoise.model.errors import InputError
+from equipoise.model.optional_libraries import extra_library, extra_line
 
 TEMPLATE = "page.typ"
 ALONE = b"""#set page(width: auto, height: auto, margin: 0pt)
 #image("drawing.svg")
 """
 AS_PNG = "a figure as PNG"
-WITH_TYPST = "the report extra: `pip install equipoise[report]`"
+EXTRA = "report"
+NO_PDF = f"no PDF was written, typst is not installed: {extra_line(EXTRA)}"
 PPI = 300.0  # pixels an inch, chosen: what journals want of pictures with lines
 
 
@@ -40,14 +42,11 @@ def pdf(document: Document, drawings: Drawings) -> bytes:
 
 def png(drawing: bytes) -> bytes:
     """Return an SVG as a PNG of ``PPI``; InputError where typst is not there, or cannot set it."""
-    if not can_set():
-        raise InputError(AS_PNG, "typst is not installed", WITH_TYPST)
     return _set(AS_PNG, {"main.typ": ALONE, "drawing.svg": drawing}, format="png", ppi=PPI)
 
 
 def _set(what: str, sources: Mapping[str, bytes], **options: Any) -> bytes:
-    import typst
-
+    typst = extra_library("typst", what, "typesetting", EXTRA)
     compiled: Any = typst.compile  # its annotations know of one file only
     try:
         return compiled(sources, **options)

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
+from equipoise.model.optional_libraries import extra_library
 
 Picture = NDArray[np.uint8]
 PREFIX = "DICT_"
@@ -30,7 +30,7 @@ SIDE = 10_000  # px, of a square as large as any picture may be (chosen: twice t
 
 def opencv(where: str) -> Any:
     """Return OpenCV; InputError says how to install it."""
-    return needed("cv2", "camera", where)
+    return extra_library("cv2", where, "pictures of markers", "camera")
 
 
 def floats(values: Any) -> Floats:
@@ -101,11 +101,12 @@ def count_of(markers: Any) -> int:
 
 def _pixels(data: bytes) -> int:
     """Return how many pixels a picture says that it has; 0 for what is no picture."""
-    pillow = needed("PIL.Image", "camera", "camera")
+    from PIL import Image
+
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of sizes, which are checked here
-            width, height = pillow.open(io.BytesIO(data)).size
+            width, height = Image.open(io.BytesIO(data)).size
     except Exception:  # a parser of broken bytes raises anything
         return 0
     return width * height

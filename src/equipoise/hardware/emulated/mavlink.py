@@ -8,12 +8,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from equipoise.hardware.emulated.device import sensed_rows
-from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
+from equipoise.model.optional_libraries import extra_library
 from equipoise.model.recording import Recording
 from equipoise.model.units import MS, US
 
+DIALECT = "pymavlink.dialects.v20.common"
 BOOTED = 20.0  # s, chosen: before the bench began
 EPOCH = 1.7e9  # s, chosen: Unix time when the bench began
 FILTERED = (9.0, 9.0, 9.0)  # rad/s: what a filter made of the rates, so that nobody takes them
@@ -24,7 +25,7 @@ class EmulatedMavlink:
     """System 1, component 1, as an autopilot is by default."""
 
     def __init__(self, unit: SensorUnit) -> None:
-        self._dialect = needed("pymavlink.dialects.v20.common", "mavlink", "emulated vehicle")
+        self._dialect = extra_library(DIALECT, "emulate", "a MAVLink vehicle", "mavlink")
         self._unit = unit
         self._link = self._dialect.MAVLink(None, 1, 1)
         self._link.robust_parsing = True

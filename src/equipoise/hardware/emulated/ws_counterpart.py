@@ -11,7 +11,7 @@ from contextlib import suppress
 from typing import Any
 
 from equipoise.hardware.emulated.outbox import CHUNK, FULL, LOOPBACK, Outbox
-from equipoise.hardware.transport.optional_libraries import needed
+from equipoise.model.optional_libraries import extra_library
 
 POLL = 0.05  # s, chosen: between checks whether it has been closed
 
@@ -20,7 +20,7 @@ class WsCounterpart:
     """A server; the newest listener counts. What comes is a line for each message."""
 
     def __init__(self, path: str = "") -> None:
-        needed("websockets", "hardware", "emulated WebSocket")
+        extra_library("websockets", "emulate", "a WebSocket", "hardware")
         self._server = socket.create_server((LOOPBACK, 0))
         self.address = f"ws://{LOOPBACK}:{self._server.getsockname()[1]}{path}"
         self._lock = threading.Lock()  # held for no longer than a check

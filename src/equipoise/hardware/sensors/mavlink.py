@@ -22,11 +22,12 @@ from typing import Any
 from equipoise.hardware.sensors.attitudes import unit_row
 from equipoise.hardware.sensors.settings import Settings
 from equipoise.hardware.transport.conversation import SensorDriver
-from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.hardware import SensorUnit
+from equipoise.model.optional_libraries import extra_library
 from equipoise.model.reading import Reading
 from equipoise.model.units import MS, US
 
+DIALECT = "pymavlink.dialects.v20.common"
 KEYS = ("rate_hz", "rate_from")
 ATTITUDE, IMU = "ATTITUDE_QUATERNION", "HIGHRES_IMU"
 IDS = {ATTITUDE: 31, IMU: 105}
@@ -46,7 +47,7 @@ class Mavlink(SensorDriver):
     def __init__(self, unit: SensorUnit) -> None:
         settings = Settings(unit, KEYS)
         where = f"hardware.sensor {unit.name}"
-        self._dialect = needed("pymavlink.dialects.v20.common", "mavlink", where)
+        self._dialect = extra_library(DIALECT, where, "a MAVLink vehicle", "mavlink")
         self._hz = settings.positive("rate_hz")
         self._rate = settings.text("rate_from", IMU, (ATTITUDE, IMU))
         sources = {"attitude": ATTITUDE, "rate": self._rate}

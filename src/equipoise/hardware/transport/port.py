@@ -9,9 +9,9 @@ import socket
 from contextlib import ExitStack, suppress
 from typing import Protocol
 
-from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.hardware import Port as Address
+from equipoise.model.optional_libraries import extra_library
 
 PATIENCE = 1.0  # s, chosen: for a computer on the same network to accept a connection
 CHUNK = 65536  # bytes, at most taken at once: a datagram's greatest size
@@ -149,7 +149,8 @@ class SerialPort:
     """A serial line, held by this process alone."""
 
     def __init__(self, port: Address, path: str) -> None:
-        serialx, address = needed("serialx", "hardware", port.address), port.address
+        address = port.address
+        serialx = extra_library("serialx", address, "a serial port", "hardware")
         self._address, self._lost = address, (OSError, serialx.SerialException)
         try:
             self._line = serialx.serial_for_url(path, baudrate=port.baud, timeout=0, exclusive=True)
@@ -187,7 +188,7 @@ class WebSocketPort:
 
     def __init__(self, port: Address, _rest: str) -> None:
         address = port.address
-        needed("websockets", "hardware", address)
+        extra_library("websockets", address, "a WebSocket", "hardware")
         from websockets.exceptions import WebSocketException
         from websockets.sync.client import connect
 

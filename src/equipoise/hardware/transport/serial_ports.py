@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from equipoise.hardware.transport.optional_libraries import needed
+from equipoise.model.optional_libraries import extra_library
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +15,7 @@ class SerialDevice:
 
 def serial_ports() -> list[SerialDevice]:
     """Return them in alphabetical order."""
-    serialx = needed("serialx", "hardware", "serial ports")
+    serialx = extra_library("serialx", "this computer", "serial ports", "hardware")
     found = serialx.list_serial_ports()
     return sorted((_device(port) for port in found), key=lambda device: device.path)
 

@@ -13,8 +13,8 @@ from typing import IO
 
 from equipoise.io.files.broken_bytes import as_broken
 from equipoise.io.files.file_content import Content
-from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.model.errors import InputError
+from equipoise.model.optional_libraries import extra_library
 
 GZIP, ZIP, ZSTD = b"\x1f\x8b", b"PK\x03\x04", b"\x28\xb5\x2f\xfd"
 KINDS = {GZIP: "gzip", ZIP: "zip", ZSTD: "Zstandard"}

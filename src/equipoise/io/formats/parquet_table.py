@@ -16,6 +16,7 @@ from equipoise.io.files.broken_bytes import as_broken
 from equipoise.io.files.file_content import Content
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
+from equipoise.model.optional_libraries import extra_library
 
 MAGIC = b"PAR1"  # a Parquet file begins and ends with it
 BATCH = 65536  # rows that are read at once (chosen)
@@ -23,7 +24,7 @@ BATCH = 65536  # rows that are read at once (chosen)
 
 def read_parquet(content: Content, source: str) -> Table:
     """Return the table in a Parquet file's bytes; lists and structures in it are not read."""
-    parquet = _pyarrow("pyarrow.parquet", source)
+    parquet = pyarrow_library("pyarrow.parquet", source)
     with as_broken(source, "Parquet file", "a whole Parquet file"):
         names, arrow = _table(parquet, content)
     column = partial(_numbers, arrow=arrow)
@@ -94,33 +95,31 @@ def _cell(name: str, row: int, arrow: Any) -> str:
 def parquet_bytes(columns: Mapping[str, Series1], source: str) -> bytes:
     """Return columns as a Parquet file's bytes; NaN becomes null."""
     stream = io.BytesIO()
-    _pyarrow("pyarrow.parquet", source).write_table(arrow_columns(columns, source), stream)
+    pyarrow_library("pyarrow.parquet", source).write_table(arrow_columns(columns, source), stream)
     return stream.getvalue()
 
 
 def arrow_columns(columns: Mapping[str, Series1], source: str) -> Any:
     """Return columns as a table of pyarrow; NaN becomes null."""
-    pyarrow = _pyarrow("pyarrow", source)
+    pyarrow = pyarrow_library("pyarrow", source)
     arrays = {name: pyarrow.array(v, mask=np.isnan(v)) for name, v in columns.items()}
     return pyarrow.table(arrays)
 
 
 def parquet_of_cells(columns: Mapping[str, Sequence[Any]], source: str) -> bytes:
     """Return columns of texts or numbers as a Parquet file's bytes; None becomes null."""
-    pyarrow = _pyarrow("pyarrow", source)
+    pyarrow = pyarrow_library("pyarrow", source)
     return _written({name: pyarrow.array(cells) for name, cells in columns.items()}, source)
 
 
 def _written(arrays: Mapping[str, Any], source: str) -> bytes:
-    pyarrow, parquet = _pyarrow("pyarrow", source), _pyarrow("pyarrow.parquet", source)
+    pyarrow = pyarrow_library("pyarrow", source)
+    parquet = pyarrow_library("pyarrow.parquet", source)
     stream = io.BytesIO()
     parquet.write_table(pyarrow.table(arrays), stream)
     return stream.getvalue()
 
 
-def _pyarrow(name: str, source: str) -> Any:
-    try:
-        return import_module(name)
-    except ImportError as error:
-        wanted = "pyarrow: `pip install equipoise[parquet]`, or use a CSV file"
-        raise InputError(source, "a Parquet file, but pyarrow is not installed", wanted) from error
+def pyarrow_library(name: str, source: str) -> Any:
+    """Return a module of pyarrow; InputError names the extra where it is missing."""
+    return extra_library(name, source, "a Parquet file", "parquet", ", or use a CSV file")

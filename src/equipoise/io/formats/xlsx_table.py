@@ -19,8 +19,8 @@ from equipoise.io.files.reading_budget import CELL, Meter
 from equipoise.io.formats.compressed import ZIP
 from equipoise.io.formats.csv_table import table_of
 from equipoise.io.formats.header_rows import is_number
-from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.model.errors import InputError
+from equipoise.model.optional_libraries import extra_library
 
 WORKBOOK = "xl/workbook.xml"  # the file of an archive that makes it a workbook
 WANTED = "an Excel workbook with a sheet of a header and rows of numbers"

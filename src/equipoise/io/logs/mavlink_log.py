@@ -26,7 +26,6 @@ from equipoise.io.columns.read_options import ReadOptions
 from equipoise.io.columns.table import Table
 from equipoise.io.files.file_content import Content
 from equipoise.io.formats.clock_units import PER_MS, PER_S, PER_US, nanoseconds
-from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.io.logs.counted_file import CountedFile
 from equipoise.io.logs.flight_axes import flight_map
 from equipoise.io.logs.log_sources import Source, chosen
@@ -35,6 +34,7 @@ from equipoise.io.logs.log_topics import LATEST
 from equipoise.io.logs.tlog_capture import tlog_pieces
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.arrays import Ints
+from equipoise.model.optional_libraries import extra_library
 from equipoise.model.units import MILLI
 
 Row = tuple[float, ...]

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.files.append_file import DurableFile
+from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.log_messages import Topics
 from equipoise.io.mcap.mcap_writer import McapWriter
 from equipoise.model.errors import EquipoiseError
@@ -100,6 +101,7 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
         """Write what stands in front of the first row."""
         from importlib.metadata import version  # takes as long as all else that a reader loads
 
+        log_library("foxglove", self._path)  # before its version is sought
         start = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=opening.zero_ns // 1000)
         message = {
             "equipoise": __version__,

@@ -1,16 +1,15 @@
 """Files that grow by pieces of a recording, the same as if it were written as a whole."""
 
 from collections.abc import Mapping
-from importlib import import_module
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.formats.clock_units import nanoseconds
 from equipoise.io.formats.csv_table import csv_text
-from equipoise.io.formats.parquet_table import arrow_columns
+from equipoise.io.formats.parquet_table import arrow_columns, pyarrow_library
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.mcap.mcap_recording import SLICE
 from equipoise.model.arrays import Series1
@@ -70,8 +69,8 @@ class ParquetPieces:
     def __init__(self, path: Path, like: Recording) -> None:
         """Begin the file."""
         self._names, self._source = tuple(native_columns(like)), str(path)
-        arrow: Any = import_module("pyarrow")
-        parquet: Any = import_module("pyarrow.parquet")
+        arrow = pyarrow_library("pyarrow", self._source)
+        parquet = pyarrow_library("pyarrow.parquet", self._source)
         schema = arrow.schema([(name, arrow.float64()) for name in self._names])
         self._writer = parquet.ParquetWriter(path, schema)
 

@@ -25,8 +25,8 @@ from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import Meter
 from equipoise.io.formats.matlab.mat_variables import Array
 from equipoise.io.formats.matlab.mat_version_73 import MATLAB_73, variables_73
-from equipoise.io.formats.optional_libraries import extra_library
 from equipoise.model.errors import InputError
+from equipoise.model.optional_libraries import extra_library
 
 SHARE = 0.15  # of the budget's time; chosen: thirty times what such files take
 BEGIN = (

@@ -16,7 +16,7 @@ from equipoise.io.files.broken_bytes import as_value_error
 from equipoise.io.files.file_content import Content
 from equipoise.io.files.reading_budget import CELL, Meter
 from equipoise.io.formats.matlab.mat_variables import DEEPEST, Array
-from equipoise.io.formats.optional_libraries import extra_library
+from equipoise.model.optional_libraries import extra_library
 
 CLASS, EMPTY = "MATLAB_class", "MATLAB_empty"
 STRUCTURE = "struct"
