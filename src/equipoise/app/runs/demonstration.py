@@ -10,10 +10,9 @@ from equipoise.app.console.terminal import busy, watched
 from equipoise.app.figures.catalogue import TrueCourse
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.app.runs.terminal_balancing import at_terminal
-from equipoise.app.runs.waiting import shown
 from equipoise.app.text.blocks import Heading
 from equipoise.app.text.com_estimate import at_home
-from equipoise.app.text.estimate_text import estimate_tables
+from equipoise.app.text.estimate_text import estimate_tables, outcome_claim
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join, window
 from equipoise.model.step import Step
@@ -69,10 +68,10 @@ def run_demo(testbed: Testbed, seed: int, show_step: Callable[[Step], None]) -> 
     with busy("simulating"):
         recording, truth = freely(testbed, seed, measured)[1]
     identifying = watched(identify(recording, testbed, IdentifyOptions()), "identifying")
-    steps = list(shown(identifying, show_step))
+    steps = list(identifying)
     estimate = steps[-1].estimate
     assert estimate is not None
-    show(estimate_tables(estimate)[:1], below=True)
+    show((*estimate_tables(estimate)[:1], outcome_claim(estimate)), below=True)
     show((Heading("2  Balance: the same platform, levelled and released again"),), below=True)
     done = run(SimulatedBench(testbed, seed), GOAL, Limits(), show_step, at_terminal(testbed))
     return Demonstration(recording, truth, steps, replace(done, before=at_home(estimate)))
