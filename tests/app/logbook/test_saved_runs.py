@@ -340,7 +340,7 @@ def test_nothing_lies_beyond_the_paper(runs, kind):
 def test_a_report_states_its_provenance(runs, kind, record_file):
     folder = folders(runs, kind)[0]
     page = (folder / "report.html").read_text(encoding="utf-8")
-    for section in ("What was asked", "Platform", "Mass properties", "What the data cannot show"):
+    for section in ("Request", "Platform", "Mass properties", "What the data cannot show"):
         assert f"<h2>{section}</h2>" in page
     for word in ("command to repeat", "95 % interval", "sha256 of testbed.toml"):
         assert word in page

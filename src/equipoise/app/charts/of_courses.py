@@ -73,7 +73,7 @@ def of_balancing(
     shaded = shaded_times(recording)
     real = () if story.truth is None else (true_rows(story.truth),)
     beside = (wanted_rows(story, tracked.standing.t), *measured_rows(story), *real)
-    panel = com_panel("centre of mass, masses as they stand", tracked.standing, *beside)
+    panel = com_panel("centre of mass, present mass positions", tracked.standing, *beside)
     yield Chart("figure14_balancing", BALANCED, (panel,), record=record, shaded=shaded)
     if recording.masses is not None and len(recording.masses):
         rows = straight(recording.mass_names, recording.masses.t, recording.masses.values, MM)

@@ -41,12 +41,12 @@ def report(record: RunRecord) -> Document:
 def _sections(record: RunRecord) -> Iterator[Section]:
     if record.conclusion:
         yield Section("", record.conclusion)
-    yield Section("What was asked", (_pairs(record.requested),))
+    yield Section("Request", (_pairs(record.requested),))
     yield Section("Platform", tuple(_platform(record.testbed)))
     yield from record.sections
     if record.figures or record.charts:
         yield Section("Figures", figure_blocks(record.figures, record.charts))
-    yield Section("Where this comes from", (_pairs(record.origin),))
+    yield Section("Provenance", (_pairs(record.origin),))
 
 
 def findings_section(findings: Sequence[Finding]) -> tuple[Section, ...]:
