@@ -51,7 +51,7 @@ def _sections(record: RunRecord) -> Iterator[Section]:
 
 def findings_section(findings: Sequence[Finding]) -> tuple[Section, ...]:
     """Return what a recording holds; nothing where that is nothing."""
-    return (Section("What the recording holds", finding_items(findings)),) if findings else ()
+    return (Section("Content of the recording", finding_items(findings)),) if findings else ()
 
 
 def steps_section(title: str, steps: Sequence[Step], figures: Mapping[Step, Picture]) -> Section:

@@ -83,7 +83,7 @@ def record_of(reported: AssessedPlatform) -> RunRecord:
         sections=(
             *findings_section(reported.findings),
             steps_section("Steps", reported.steps, shown),
-            Section("What the recording proves", tables_of(reported)),
+            Section("Results", tables_of(reported)),
             *estimate_sections(done.estimate, done.testbed, *correlations_of(done.estimate)),
         ),
         origin=origin(sha256=done.recording.sha256),

@@ -113,8 +113,8 @@ def record_of(done: Calibrated) -> RunRecord:
         testbed=done.testbed,
         conclusion=(outcome_claim(done.estimate),),
         sections=(
-            Section("What was found", tuple(tables_of(done.estimate, done.moved))),
-            Section("What it rests on", sentences_of(done)),
+            Section("Results", tuple(tables_of(done.estimate, done.moved))),
+            Section("Assumptions and remarks", sentences_of(done)),
         ),
         origin=origin(sha256=done.recording.sha256),
     )

@@ -96,7 +96,7 @@ def record_of(found: Sizing) -> RunRecord:
         testbed=case.testbed,
         conclusion=(outcome_claim(found),),
         sections=(Section("Reach, resolution, bounds and torque budget", tables_of(found)),
-                  Section("What this rests on", remarks_of(found))),
+                  Section("Assumptions and remarks", remarks_of(found))),
         origin=origin(),
         figures=pictures_of(found),
     )  # fmt: skip

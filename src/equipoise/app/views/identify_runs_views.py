@@ -178,4 +178,4 @@ def findings_sections(done: JointIdentification) -> Iterator[Section]:
     """Yield what each recording holds."""
     for run in done.runs:
         for section in findings_section(run.findings):
-            yield Section(f"What {run.name} holds", section.blocks)
+            yield Section(f"Content of {run.name}", section.blocks)

@@ -84,6 +84,6 @@ def record_of(found: MassBudget, testbed: Testbed) -> RunRecord:
         requested={"parts": found.stated.source, "method": found.estimate.method},
         testbed=testbed,
         conclusion=(outcome_claim(found.estimate),),
-        sections=(Section("What was found", tuple(tables(found))),),
+        sections=(Section("Results", tuple(tables(found))),),
         origin=origin(),
     )

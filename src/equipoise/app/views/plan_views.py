@@ -84,7 +84,7 @@ def record_of(done: Planning) -> RunRecord:
         testbed=request.testbed,
         conclusion=(verdict_claim(done),),
         sections=(
-            Section("What it promises", (promise_table(done),)),
+            Section("Predicted accuracy", (promise_table(done),)),
             Section("The manoeuvre", (*what_to_do(done), *limits_of(done))),
         ),
         origin=origin(seed=str(request.seed)),

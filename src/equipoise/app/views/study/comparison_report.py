@@ -118,7 +118,7 @@ def record_of(done: Compared) -> RunRecord:
         requested={key: text for key, text in done.requested.items() if key not in left_out},
         testbed=done.testbed,
         conclusion=recommendations(done),
-        sections=(Section("What was measured", tuple(all_tables(done))),),
+        sections=(Section("Results", tuple(all_tables(done))),),
         origin=origin(),
         figures=list(pictures(done)),
         files=files,

@@ -170,7 +170,7 @@ def record_of(done: LeeRun, courses: Sequence[Courses]) -> RunRecord:
         requested=simulated | formulations(),
         testbed=done.slews[0].testbed,
         conclusion=(),
-        sections=(Section("What the methods found", blocks(done)),),
+        sections=(Section("Results", blocks(done)),),
         origin=origin(),
         figures=list(pictures_of(large, small)),
     )

@@ -108,7 +108,7 @@ def at_stop(found: MethodComparison) -> Iterator[str]:
 def cost_table(found: MethodComparison) -> Table:
     """Return what a record takes of those that were not refused, the quickest first."""
     return tabulated(
-        "What one record takes",
+        "Cost per record",
         sorted((m for m in found.methods if np.isfinite(m.time)), key=lambda m: m.time),
         (Column(), lambda method: method.method),
         (number("", "ms"), lambda method: figure(method.time / MS)),
