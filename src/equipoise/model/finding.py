@@ -10,7 +10,7 @@ Kind = Literal["content", "motion", "problem", "wrong", "mended"]
 
 @dataclass(frozen=True, slots=True)
 class Finding(Coded):
-    """Results, the main thing first, and when it holds.
+    """What was found, the main thing first, and when it holds.
 
     ``content`` is what was recorded, ``motion`` what the platform did, ``problem`` what an
     estimate will suffer from, ``wrong`` what no estimate can stand, with what mends it, ``mended``

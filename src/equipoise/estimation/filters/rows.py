@@ -29,7 +29,7 @@ LONGEST = 0.25 * LONGEST_STEP  # s, chosen: Phi is good to (w dt)^3 / 6, 1e-3 at
 
 
 class Rows(NamedTuple):
-    """Results and known."""
+    """What was measured and known."""
 
     drive: Drive
     node: Ints  # (n,) of each row

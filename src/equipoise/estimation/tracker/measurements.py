@@ -18,7 +18,7 @@ NO_RATE = Samples(np.zeros(0), np.zeros((0, 3)))
 
 
 class Rows(NamedTuple):
-    """Results and known from one moment on."""
+    """What was measured and known from one moment on."""
 
     t: Floats  # (n+1,) s
     known: Floats  # (n+1, 7 + k), see ``Timeline``; warmth counts from the first row of all
