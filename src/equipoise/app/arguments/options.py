@@ -115,13 +115,13 @@ class Reading:
     Attributes
     ----------
     from_s
-        Ignore rows before this time. Left out: in a bench's own record those before the release,
+        Ignore rows before this time. If omitted: in a bench's own record those before the release,
         else none.
     to_s
         Ignore rows after this time.
     dialect
-        Format of the table: native, optitrack, vicon, qualisys, phyphox, ros or euler. Left out: by
-        its header.
+        Format of the table: native, optitrack, vicon, qualisys, phyphox, ros or euler. If omitted:
+        by its header.
     columns
         Column map (TOML) for any other table.
     topic
@@ -131,9 +131,9 @@ class Reading:
     instance
         Sensor of a log to use, where it has several of a kind; counted from 0.
     bad_rows
-        Greatest share of faulty rows; beyond it the file is refused.
+        Maximum share of faulty rows; beyond it the file is refused.
     max_memory_mb
-        Memory for reading a file, in MB. Left out: 64 times the file, at least 256, at most 2000.
+        Memory for reading a file, in MB. If omitted: 64 times the file, at least 256, at most 2000.
     """
 
     from_s: float | None = None

@@ -50,9 +50,9 @@ def assess(
     target_um
         Target of the centre of mass, from the centre of rotation, body axes.
     require_torque
-        Greatest permitted gravity torque, rms over these directions, N m.
+        Maximum permitted gravity torque, rms over these directions, N m.
     require_offset_um
-        Greatest permitted distance of the centre of mass from its target.
+        Maximum permitted distance of the centre of mass from its target.
     windows_s
         Also assess windows of this length along the recording: drift, random walk and Allan
         deviation of the centre of mass.

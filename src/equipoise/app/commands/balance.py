@@ -86,16 +86,16 @@ def balance(
     tolerance_um
         Tolerance around the target along each axis.
     max_moves
-        Greatest number of moves: 3, or 10 before a hold. For measure_and_move.
+        Maximum number of moves: 3, or 10 before a hold. For measure_and_move.
     max_time_s
-        Greatest bench time: 120, or 600 before a hold or with another law.
+        Maximum bench time: 120, or 600 before a hold or with another law.
     hold_min
         Then track the drift, declared or not, and hold the balance for this many minutes. After
         measure_and_move, which then measures to two fifths of the tolerance because its errors
         remain; or after momentum_buildup, whose masses also follow the tilt by the sag that it
         estimated.
     out
-        Folder for report, figures and balance.json. Left out: a folder of its own in
+        Folder for report, figures and balance.json. If omitted: a folder of its own in
         equipoise-runs.
     """
     from equipoise.app.arguments.checks import check_outputs, one_of, seed_of

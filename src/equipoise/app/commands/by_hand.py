@@ -30,7 +30,7 @@ class Manual:
     recording
         Next free swing of that session.
     max_rounds
-        Greatest number of placings.
+        Maximum number of placings.
     then_masses
         For a testbed with weights and sliding masses: a person places weights until the masses can
         correct the rest, then --law takes over. In a --session the masses continue with --bench,

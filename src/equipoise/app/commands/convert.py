@@ -30,7 +30,7 @@ class Captured:
     form
         Lines: csv or json.
     laboratory
-        Frame of the attitude: ned, z_up or y_up. Left out: the driver's usual one.
+        Frame of the attitude: ned, z_up or y_up. If omitted: the driver's usual one.
     rate_hz
         Sample rate, where neither rows nor file have a time.
     """

@@ -47,7 +47,7 @@ def dashboard(
         Port on this computer; 0: any free one.
     expose
         Address of this computer at which others may open the page, such as 192.168.1.5. The token
-        is then also required to observe. Left out: this computer only.
+        is then also required to observe. If omitted: this computer only.
     """
     from equipoise.app.arguments.checks import seed_of
     from equipoise.model.optional_libraries import extra_library

@@ -41,7 +41,7 @@ def design(
     misalignment_deg
         Misalignment of the rails, one sd about each transverse axis.
     require_torque
-        Greatest permitted residual torque, rms over these directions, N m, with 95 % of the
+        Maximum permitted residual torque, rms over these directions, N m, with 95 % of the
         platforms within reach of the masses.
     out
         Folder for report, figures and design.json.

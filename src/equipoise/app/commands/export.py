@@ -29,7 +29,7 @@ def export(
     to
         urdf, sdf, mjcf, basilisk, 42, matlab, simulink, yaml, csv or ros.
     out
-        File to write. Left out: the run's name with the format's suffix, in this folder.
+        File to write. If omitted: the run's name with the format's suffix, in this folder.
     testbed
         Testbed with the mass, for a document without testbed.toml beside it.
     """

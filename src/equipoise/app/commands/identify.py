@@ -71,7 +71,7 @@ def identify(
         Plan file of the recording; its predicted sd are compared with the result. One recording
         only.
     out
-        Folder for report, figures and estimate.json. Left out: a folder of its own in
+        Folder for report, figures and estimate.json. If omitted: a folder of its own in
         equipoise-runs.
     """
     from equipoise.app.arguments.checks import check_outputs, one_of

@@ -19,7 +19,7 @@ def laws(
     Parameters
     ----------
     name
-        Law to describe. Left out: list all.
+        Law to describe. If omitted: list all.
     testbed
         Testbed file, or a preset's name: states whether each law can balance it, and the expected
         time where the law can calculate it.

@@ -29,7 +29,7 @@ def logbook(
     Parameters
     ----------
     folder
-        Folder of runs. Left out: the one that EQUIPOISE_RUNS names, else equipoise-runs.
+        Folder of runs. If omitted: the one that EQUIPOISE_RUNS names, else equipoise-runs.
     compare
         Runs to show side by side, by number in the list or by name, with or without the folder of
         the month. The first is the reference.

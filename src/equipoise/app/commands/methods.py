@@ -16,7 +16,7 @@ def methods(name: str | None = None, /, *, json: Json = False) -> int:
     Parameters
     ----------
     name
-        Method to describe. Left out: list all.
+        Method to describe. If omitted: list all.
     """
     from equipoise.app.api import catalogues
 

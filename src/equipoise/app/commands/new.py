@@ -37,7 +37,7 @@ def new(
     Parameters
     ----------
     preset
-        Preset to start from, such as sputnix. With --from: sputnix if left out.
+        Preset to start from, such as sputnix. With --from: sputnix if omitted.
     from_
         File with mass properties to put into it: a text of SolidWorks, Fusion, Inventor, Creo,
         Onshape or FreeCAD, a URDF, SDF or MJCF file. Its origin is taken as the centre of rotation.
@@ -45,7 +45,7 @@ def new(
         What products of inertia are in that text, where nothing shows it: elements of the tensor
         (J_xy = -integral of x y dm) or integrals.
     out
-        File to write. Left out: PRESET.toml in this folder, or my.toml of the five answers.
+        File to write. If omitted: PRESET.toml in this folder, or my.toml of the five answers.
     yes
         Take the default of each question, for scripts.
     force

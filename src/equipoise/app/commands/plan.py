@@ -60,7 +60,7 @@ def plan(
     moves
         Number of moves of the masses.
     max_rate_deg_s
-        Greatest rate of the platform.
+        Maximum rate of the platform.
     prior_record
         Earlier recording: its information is included, and masses start where it left them.
     trials

@@ -13,7 +13,7 @@ def precompile(*, workers: Whole | None = None) -> int:
     Parameters
     ----------
     workers
-        Number of concurrent commands. Left out: one per processor.
+        Number of concurrent commands. If omitted: one per processor.
     """
     import os
     from pathlib import Path

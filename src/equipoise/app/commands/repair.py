@@ -22,7 +22,8 @@ def repair(file: str, /, *, out: Path, max_memory_mb: float | None = None) -> in
     out
         File to write, .mcap.
     max_memory_mb
-        Memory for reading the file, in MB. Left out: 64 times the file, at least 256, at most 2000.
+        Memory for reading the file, in MB. If omitted: 64 times the file, at least 256, at most
+        2000.
     """
     from equipoise.app.arguments.inputs import memory_of
     from equipoise.app.arguments.options import Reading

@@ -34,13 +34,13 @@ def replay(
     shown
         Folder of a run, or a recording in any format that `equipoise convert` reads.
     testbed
-        Testbed file, or a preset's name. Left out: the testbed of the run.
+        Testbed file, or a preset's name. If omitted: the testbed of the run.
     port
         Port of the page on this computer; 0: any free one.
     terminal
         Play the recording back in the terminal.
     speed
-        In the terminal: seconds of the recording per second, 1 if left out; 0: as fast as possible.
+        In the terminal: seconds of the recording per second, 1 if omitted; 0: as fast as possible.
     foxglove
         Play it in the terminal, and serve it to Foxglove, Lichtblick or PlotJuggler on this
         computer.

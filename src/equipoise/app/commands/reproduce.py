@@ -50,7 +50,7 @@ def reproduce(
     Parameters
     ----------
     paper
-        Paper to reproduce. Left out: list the papers and their items.
+        Paper to reproduce. If omitted: list the papers and their items.
     runs
         Number of experiments and platforms, where a paper has several.
     seed
