@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from equipoise.app.api.open_bench import open_bench
     from equipoise.app.api.plan import plan
     from equipoise.app.api.simulate import simulate
+    from equipoise.model.errors import InputError
     from equipoise.model.estimate import Estimate
     from equipoise.model.mass_properties import MassProperties
     from equipoise.model.recording import Recording
@@ -44,10 +45,12 @@ HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "MassProperties": "equipoise.model.mass_properties",
     "Recording": "equipoise.model.recording",
     "Estimate": "equipoise.model.estimate",
+    "InputError": "equipoise.model.errors",
 }
 
 __all__ = [
     "Estimate",
+    "InputError",
     "MassProperties",
     "Recording",
     "SimulatedBench",

@@ -35,7 +35,10 @@ RECORDINGS = {
     "NaN row": (HEAD + ROWS[0] + "0.2,nan,nan,nan,nan\n" + ROWS[2], ["line 3", "'nan'"]),
     "empty file": ("", ["an empty file"]),
     "two samples": (HEAD + ROWS[0] + ROWS[1], ["2 rows", "at least 3"]),
-    "time backwards": (HEAD + ROWS[0] + ROWS[2] + ROWS[1] + ROWS[3], ["line 4", "grow"]),
+    "time backwards": (
+        HEAD + ROWS[0] + ROWS[2] + ROWS[1] + ROWS[3],
+        ["line 4", "increasing times"],
+    ),
     "quaternion far from unit": (
         HEAD + ROWS[0] + "0.2,2,0,0,0\n" + ROWS[2],
         ["line 3", "length 2"],

@@ -12,9 +12,10 @@ from collections.abc import Iterator
 import pypdfium2
 import pytest
 
-from equipoise.app.cli import COMMANDS, app
+from equipoise.app.cli import GROUPS, app
 from tests.support import thorough
 
+COMMANDS = [command for commands in GROUPS.values() for command in commands]
 NAME = "[red]a[/red] [link=x]b[/link] :smile: \x1b]0;t\x07\u202e\u200b\x9b=1"
 SHOWN = r"[red]a[/red] [link=x]b[/link] :smile: \x1b]0;t\x07\u202e\u200b\x9b=1"
 ACTING = set(map(chr, (*range(9), *range(11, 32), *range(127, 160)))) | set("\u202e\u200b\u2028")

@@ -46,7 +46,7 @@ def test_what_nobody_has_foreseen_is_one_sentence_and_a_file(fail, tmp_path, way
     assert done.stdout == ""
     lines = [line for line in done.stderr.splitlines() if line and not line.endswith("...")]
     assert len(lines) == 1
-    assert lines[0].startswith("equipoise: an error that nobody has foreseen (")
+    assert lines[0].startswith("equipoise: unexpected error (")
     assert not {"\x1b", "\x07"} & set(done.stderr)
     (path,) = files_in(tmp_path)
     assert str(path) in lines[0]

@@ -17,7 +17,7 @@ from tests.support.dashboard_program import CHROMIUM, Received, browser
 LOADED = re.compile(r"<(?:script|img|iframe|source|video|audio|embed)\b[^>]*?\bsrc=\"([^\"]*)\"")
 LINKED = re.compile(r"<link\b[^>]*>")
 IN_STYLE = re.compile(r"url\(\s*['\"]?([^'\")]+)|@import\s+['\"]([^'\"]+)")
-LOOKED_AT = (
+PAGES = (
     "index", "reference/commands/identify", "reference/python/identify",
     "reference/python/Estimate", "gallery/index",
 )  # fmt: skip
@@ -68,7 +68,7 @@ def faults(site: Path) -> list[str]:
             size = {"width": width, "height": height}
             page = opened.new_page(color_scheme=scheme, viewport=size)
             received = Received(page)
-            for name in LOOKED_AT:
+            for name in PAGES:
                 page.goto((site / f"{name}.html").as_uri())
                 found += [
                     f"{name}, {scheme}: {fault['id']}, {fault['nodes'][0]['html']}"
@@ -90,7 +90,7 @@ def test_the_site_is_whole_offline_and_open_to_all(tmp_path):
     assert faults(site) == []
 
 
-def test_a_page_that_asks_another_host_is_found(tmp_path):
+def test_a_page_that_requests_another_host_is_found(tmp_path):
     (tmp_path / "page.html").write_text(
         '<link rel="stylesheet" href="https://x.org/a.css"><a href="https://fine.org">link</a>'
         '<script defer src="//y.org/b.js"></script><img src="own.png">'

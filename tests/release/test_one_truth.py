@@ -93,7 +93,7 @@ def test_a_workflow_runs_what_exists(workflow):
 
 
 @pytest.mark.parametrize("form", FORMS, ids=lambda path: path.name)
-def test_a_form_asks_something(form):
+def test_a_form_has_questions(form):
     document = yaml.safe_load(form.read_text(encoding="utf-8"))
     assert {"name", "description", "body"} <= set(document)
     assert all(part["type"] in ("markdown", "textarea", "input") for part in document["body"])

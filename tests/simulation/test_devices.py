@@ -179,10 +179,10 @@ def test_the_motion_does_not_depend_on_how_it_is_read(testbed):
 @pytest.mark.parametrize(
     ("inputs", "message"),
     [
-        ({"wx": 6e-3}, "device wx: asked for 0.006 N m; its limit is 0.005 N m"),
-        ({"g1": 1.1}, "device g1: asked for 1.1 rad/s"),
-        ({"mx": -0.5}, "device mx: asked for -0.5 A m"),
-        ({"jx": 1e-4}, "device jx: asked for 0.0001 N m s at least"),
+        ({"wx": 6e-3}, "device wx: requested 0.006 N m; its limit is 0.005 N m"),
+        ({"g1": 1.1}, "device g1: requested 1.1 rad/s"),
+        ({"mx": -0.5}, "device mx: requested -0.5 A m"),
+        ({"jx": 1e-4}, "device jx: requested 0.0001 N m s at least"),
     ],
 )
 def test_an_input_beyond_its_limit_is_refused_and_nothing_is_driven(testbed, inputs, message):

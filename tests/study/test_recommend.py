@@ -59,9 +59,9 @@ WANTING = {
     "fails": ({"unusable": 1}, "fails in 1 of 40 runs"),
     "broke": ({"broke": 2}, "fails in 2 of 40 runs"),
     "part": ({"stated": (80, 120)}, "states 80 of 120 values"),
-    "wrong": ({"confident_wrong": 1}, "misses by more than 5 sd in 1 of 40 runs"),
+    "wrong": ({"confident_wrong": 1}, "is off by more than 5 sd in 1 of 40 runs"),
     "warned": ({"warned": 5, "trusted": 35}, "warns about its intervals in 5 of 40 runs"),
-    "too narrow": ({"coverage": Share(300, 360)}, "intervals that hold 83 %"),
+    "too narrow": ({"coverage": Share(300, 360)}, "intervals with a coverage of 83 %"),
 }
 
 

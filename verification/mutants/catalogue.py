@@ -49,6 +49,9 @@ MODEL = _of("model", *(
     "bench_requests.py", "abs(requested) > most", "requested > most",
     "simulation/test_devices.py",
 ), (
+    "stated_body.py", "jacobian[1:7] -= shift", "jacobian[1:7] += shift",
+    "io/exchange/test_body_formats.py",
+), (
     "criterion.py", "if found.high <= limit", "if found.low <= limit",
     "statistical/test_verdicts.py",
 ))  # fmt: skip
@@ -319,18 +322,6 @@ ESTIMATION = (*_of(
     ("output_error/solution.py", "turn, normal, toward, damping, growth)",
      "turn, normal, toward, FIRST, GROWTH)", "estimation/test_search_budget.py"
      "::test_a_descent_in_parts_goes_the_way_of_one_that_is_not_stopped"),
-    ("exchange/product_sign.py", '"integrals": -1.0}', '"integrals": 1.0}',
-     "io/exchange/test_foreign_bodies.py"),
-    ("exchange/product_sign.py", "_relative(sign * printed - due, due)",
-     "_relative(sign * printed + due, due)", "io/exchange/test_foreign_bodies.py"),
-    ("exchange/script_formats.py", "spaced(-six[3:])", "spaced(six[3:])",
-     "io/exchange/test_body_formats.py"),
-    ("model/stated_body.py", "jacobian[1:7] -= shift", "jacobian[1:7] += shift",
-     "io/exchange/test_body_formats.py"),
-    ("testbed/first_testbed.py", "np.sqrt(12 * np.diag", "np.sqrt(6 * np.diag",
-     "app/commands/test_new.py::test_the_defaults_make_a_platform_by_hand"),
-    ("testbed/first_testbed.py", "(1 if number < 3 else -1)", "(1 if number < 3 else 1)",
-     "app/commands/test_new.py::test_six_masses_stand_opposite_each_other"),
     ("output_error/input_errors.py", "share = -STEP * first", "share = STEP * first",
      "estimation/output_error/test_input_errors.py"),
     ("output_error/input_errors.py", "each.direct + covariance @ each.descent",
@@ -610,6 +601,16 @@ STUDY = _of(
 
 IO = _of(
     "io",
+    ("exchange/product_sign.py", '"integrals": -1.0}', '"integrals": 1.0}',
+     "io/exchange/test_foreign_bodies.py"),
+    ("exchange/product_sign.py", "_relative(sign * printed - due, due)",
+     "_relative(sign * printed + due, due)", "io/exchange/test_foreign_bodies.py"),
+    ("exchange/script_formats.py", "spaced(-six[3:])", "spaced(six[3:])",
+     "io/exchange/test_body_formats.py"),
+    ("testbed/first_testbed.py", "np.sqrt(12 * np.diag", "np.sqrt(6 * np.diag",
+     "app/commands/test_new.py::test_the_defaults_make_a_platform_by_hand"),
+    ("testbed/first_testbed.py", "(1 if number < 3 else -1)", "(1 if number < 3 else 1)",
+     "app/commands/test_new.py::test_six_masses_stand_opposite_each_other"),
     ("columns/unread_inputs.py", "if high > low else None", "if high >= low else None",
      "assessment/plausibility/test_unread_inputs.py"),
     ("recording/clock.py", "_longest_together(back) > max(", "_longest_together(back) < -max(",

@@ -191,7 +191,7 @@ def test_what_is_wrong_is_named_by_its_argument(stated, words):
 
 
 def test_a_share_that_is_none_is_named():
-    with pytest.raises(InputError, match="bad_rows: found 1; wanted a share"):
+    with pytest.raises(InputError, match="bad_rows: found 1; wanted a fraction"):
         made(T, q=Q, bad_rows=1.0)
 
 

@@ -8,10 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from equipoise.app.cli import COMMANDS
+from equipoise.app.cli import GROUPS
 from equipoise.io.testbed.presets import preset_names
 
-TESTBEDS = {c.__name__: inspect.signature(c).parameters.get("testbed") for c in COMMANDS}
+TESTBEDS = {
+    c.__name__: inspect.signature(c).parameters.get("testbed") for cs in GROUPS.values() for c in cs
+}
 NEEDED = {name: p for name, p in TESTBEDS.items() if p is not None and p.default is p.empty}
 BY_OPTION = [name for name, p in NEEDED.items() if p.kind == p.KEYWORD_ONLY]
 BY_PLACE = [name for name in NEEDED if name not in BY_OPTION]

@@ -32,7 +32,7 @@ def test_a_bench_without_a_sensor_is_checked_and_not_waited_for():
     assert [each.sentence for each in found if not each.good] == []
     said = [each.sentence for each in found]
     assert "no sensor is declared: nothing to stream" in said
-    assert sum("went 1 mm out and back" in each for each in said) == 3
+    assert sum("moved 1 mm and back" in each for each in said) == 3
 
 
 def test_an_acceleration_as_delivered_is_a_problem_with_what_to_set():
@@ -79,7 +79,7 @@ def test_rows_that_arrive_unevenly_are_no_fault_of_a_sensor_without_stamps():
         if "intervals vary" in each.sentence
     ]
     assert [each.good for each in scattered] == [True]
-    assert "stamped as they arrive" in scattered[0].sentence
+    assert "those of arrival here" in scattered[0].sentence
 
 
 TABLE = read_preset("reference-table")
@@ -94,7 +94,7 @@ def test_devices_are_driven_to_and_fro_and_follow():
         found = list(checked_bench(there.testbed(), 2.0, lambda question: "rw_z" not in question))
     said = [each.sentence for each in found]
     assert [each.sentence for each in found if not each.good] == []
-    assert "actuator wheels: answers, agrees, rw_x, rw_y, rw_z at rest" in said
+    assert "actuator wheels: answers, settings agree, rw_x, rw_y, rw_z at rest" in said
     assert sum("follows; check its direction of rotation by eye" in each for each in said) == 2
     assert "device rw_z: not driven" in said
 

@@ -205,15 +205,15 @@ def table(request):
 NOT_DRIVEN = {
     "beyond its torque": (
         {"rw_x": 0.001, "rw_y": -0.0051}, DriveRefused,
-        "device rw_y: asked for -0.0051 N m; its limit is 0.005 N m; nothing was driven",
+        "device rw_y: requested -0.0051 N m; its limit is 0.005 N m; nothing was driven",
     ),
     "beyond its dipole": (
         {"mt_z": 0.5}, DriveRefused,
-        "device mt_z: asked for 0.5 A m^2; its limit is 0.4 A m^2; nothing was driven",
+        "device mt_z: requested 0.5 A m^2; its limit is 0.4 A m^2; nothing was driven",
     ),
     "a pulse that is too short": (
         {"jp_x": 0.0001}, DriveRefused,
-        "device jp_x: asked for 0.0001 N m s at least; its limit is 0.0005 N m s at least; "
+        "device jp_x: requested 0.0001 N m s at least; its limit is 0.0005 N m s at least; "
         "nothing was driven",
     ),
     "a device that is not there": (

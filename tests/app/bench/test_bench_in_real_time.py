@@ -56,7 +56,7 @@ def test_check_finds_a_sound_bench_sound(bench):
     problems = [line for line in out.splitlines() if "PROBLEM" in line]
     scattered = [line for line in problems if "intervals vary" in line]
     assert problems == scattered
-    assert "board masses: answers, agrees, x, y, z at home" in out
+    assert "board masses: answers, settings agree, x, y, z at home" in out
     assert [f"mass {name}: went 1 mm out and back" in out for name in "xyz"] == [True] * 3
     assert "messages" in out
     if scattered:
@@ -132,7 +132,7 @@ def test_the_first_ctrl_c_stops_and_saves(bench):
     assert code == BY_HAND
     reported = json.loads((bench / record.stem / "balance.json").read_text())
     assert reported["verdict"]["code"] == "stopped_by_hand"
-    assert "Stopped by hand: every mass was halted" in reported["verdict"]["sentence"]
+    assert "Stopped by the user: every mass was halted" in reported["verdict"]["sentence"]
     assert "seed" not in reported["provenance"]
     assert "command" in [event.kind for event in events_of(record)]
     assert read_recording(record).attitude.t[-1] > 2.0

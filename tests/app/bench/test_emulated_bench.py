@@ -180,9 +180,9 @@ def spoil(station, how):
 @pytest.mark.parametrize(
     ("trouble", "said"),
     [
-        (lambda lab: spoil(lab.imu, silent), "sensor imu has given no row"),
-        (lambda lab: spoil(lab.imu, repeated), "sensor imu has given no row"),
-        (lambda lab: spoil(lab.imu, half), "sensor imu has given no row"),
+        (lambda lab: spoil(lab.imu, silent), "sensor imu has not delivered a row"),
+        (lambda lab: spoil(lab.imu, repeated), "sensor imu has not delivered a row"),
+        (lambda lab: spoil(lab.imu, half), "sensor imu has not delivered a row"),
         (lambda lab: spoil(lab.board, silent), "does not answer"),
         (lambda lab: spoil(lab.board, half), "board masses: "),
         (lambda lab: lab.board.device.press_reset, "position is lost"),
@@ -222,8 +222,8 @@ def test_a_sensor_that_is_hidden_for_ten_seconds_is_waited_for():
         assert 10 < found.emulated.time - begun < 11
         said = [sentence for _, kind, sentence in found.events if kind == "interlock"]
         assert said == [
-            "sensor imu gives no row of attitude",
-            "sensor imu gives rows of attitude again",
+            "sensor imu delivers no row of attitude",
+            "sensor imu delivers rows of attitude again",
         ]
         assert found.bench.read(1.0).masses.values[-1, 0] == pytest.approx(2 * MM, abs=2e-6)
 
@@ -261,7 +261,7 @@ def test_ctrl_c_at_the_moment_of_an_interlock_ends_with_the_account(monkeypatch)
         done = run(found.bench, goal, Limits(), None)
     assert done.verdict.code == "stopped_by_hand"
     assert done.verdict.outcome == "halted"
-    assert done.verdict.sentence.startswith("Stopped by hand: every mass was stopped")
+    assert done.verdict.sentence.startswith("Stopped by the user: every mass was stopped")
     assert "the platform is touched" in done.verdict.sentence
 
 

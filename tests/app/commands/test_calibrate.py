@@ -37,7 +37,7 @@ def test_it_says_what_it_found_and_writes_it_with_the_comments(folder, capsys):
     assert calibrate(folder, "--hold", "inertia_P_zz", "--write", str(folder / "new.toml")) == 0
     said = capsys.readouterr().out
     assert "backlash, mm" in said
-    assert "Never moved, so not shown: x2, y1, y2, z1, z2." in said
+    assert "Never moved, hence not calibrated: x2, y1, y2, z1, z2." in said
     assert "is fixed by the stated inertia" in said
     assert "not written to a testbed file" in " ".join(said.split())
     text = (folder / "new.toml").read_text(encoding="utf-8")

@@ -60,7 +60,7 @@ def test_methods_are_compared_and_written_down(equipoise, strict_json, tmp_path)
         1e-6 * (sum(squares) / 2) ** 0.5, rel=1e-4
     )
     page = (folder / "report.html").read_text("utf-8")
-    assert "http" not in re.sub(r"data:image/svg[^\"]*", "", page)
+    assert "http" not in re.sub(r"data:image/svg[^']*", "", page)
     parser = Balanced()
     parser.feed(page)
     assert parser.open == []
@@ -151,7 +151,7 @@ def test_it_ends_with_1_when_nobody_can_be_recommended(equipoise, monkeypatch):
     done = equipoise("compare", "sputnix", "--methods")
     assert done.code == 1
     assert "no method can be recommended" in reported_of(done)
-    assert "tracker misses by more than 5 sd in 1 of 20 runs" in reported_of(done)
+    assert "tracker is off by more than 5 sd in 1 of 20 runs" in reported_of(done)
 
 
 def test_an_open_scale_is_reported(equipoise, monkeypatch):

@@ -53,7 +53,7 @@ def test_the_directions_that_a_single_rail_cannot_shift_are_reported(equipoise, 
     done = equipoise("design", one_rail, *SHORT)
     assert done.code == 0
     said = " ".join(done.out.split())
-    assert "The masses reach one line only" in said
+    assert "The masses act one line only" in said
     assert "(0, 1, 0), (0, 0, 1)" in said or "(0, 0, 1), (0, 1, 0)" in said
 
 

@@ -65,7 +65,7 @@ def test_laws_on_a_testbed_say_what_they_lack_and_how_long_they_should_take(equi
     assert list(by_law) == list(CARDS)
     expected = by_law["fully_actuated"]["expected_s"]
     assert 200 < expected < 600
-    assert f"should take {expected / 60:.1f} min" in line
+    assert f"expected duration {expected / 60:.1f} min" in line
     assert by_law["planar_magnetic"]["missing"] == ["magnetorquers"]
     one = reported_of(equipoise("laws", "fully_actuated", "--testbed", "sputnix"))
     assert f"on {read_preset('sputnix').name} lacks {NEEDS['momentum']}, {NEEDS['gyro']}" in one

@@ -48,7 +48,7 @@ def test_a_cut_recording_is_repaired_and_says_up_to_when(equipoise, record_file,
     ends = [c.t[-1] for c in (saved.attitude, saved.rate, saved.masses) if c is not None]
     assert f"up to {max(ends):.3f} s" in reported.out
     again = equipoise("repair", "saved.mcap", "--out", "twice.mcap")
-    assert "saved.mcap is whole" in again.out
+    assert "saved.mcap is complete" in again.out
     assert not (tmp_path / "twice.mcap").exists()
 
 
@@ -77,7 +77,7 @@ def test_a_record_without_index_is_given_one_and_keeps_every_message(equipoise, 
     assert chunks_and_messages("old.mcap") == (0, chunks_and_messages("indexed.mcap")[1])
     assert chunks_and_messages("indexed.mcap")[0] > 0
     again = equipoise("repair", "indexed.mcap", "--out", "twice.mcap")
-    assert "indexed.mcap is whole" in again.out
+    assert "indexed.mcap is complete" in again.out
     assert not (tmp_path / "twice.mcap").exists()
 
 
@@ -90,7 +90,7 @@ def test_a_live_record_needs_no_repair_once_it_is_closed(equipoise, tmp_path):
         live.turn(2.0)
         live.rows(Recording(rate=Samples(t + 2.0, none)))
     reported = equipoise("repair", "live.mcap", "--out", "indexed.mcap")
-    assert "live.mcap is whole" in reported.out
+    assert "live.mcap is complete" in reported.out
     known, messages = chunks_and_messages("live.mcap")
     assert known > 1
     assert sum(topic == "/rate" for topic, _, _ in messages) == 160
@@ -115,7 +115,7 @@ def test_a_garbled_recording_says_how_many_messages_are_lost(equipoise, record_f
     (tmp_path / "bad.mcap").write_bytes(content[:middle] + bytes(8) + content[middle + 8 :])
     reported = equipoise("repair", "bad.mcap", "--out", "saved.mcap").out
     all_of_it = equipoise("repair", "whole.mcap", "--out", "x.mcap").out
-    total = int(all_of_it.split("whole: ")[1].split()[0])
+    total = int(all_of_it.split("complete: ")[1].split()[0])
     saved = int(reported.split("Saved: ")[1].split()[0])
     lost = int(reported.split("Lost: ")[-1].split()[0])
     assert saved + lost == total

@@ -40,7 +40,7 @@ def reported(out: str) -> str:
 def test_a_simulated_person_balances_and_it_is_written_down(equipoise, tmp_path, strict_json):
     done = equipoise(*WORDS, "--seed", "1", "--out", "out")
     assert done.code == 0
-    assert "Put on" in done.out
+    assert "Add " in done.out
     assert "Passed: the centre of mass is at" in done.out
     assert "da Silva et al. 2021" in done.out
     assert {p.name for p in (tmp_path / "out").iterdir()} >= {
@@ -117,8 +117,14 @@ WRONG = {
     "moves besides": (["--max-moves", "2"], "manual balancing moves nothing by itself"),
     "reading nothing": (["--from-s", "3"], "--recording FILE"),
     "no rounds": (["--max-rounds", "0"], "a number above 0"),
-    "another target": (["--session", "s.toml", "--target-um", "0", "0", "-50"], "begun"),
-    "other rounds": (["--session", "s.toml", "--max-rounds", "5"], "begun"),
+    "another target": (
+        ["--session", "s.toml", "--target-um", "0", "0", "-50"],
+        "with which the session started",
+    ),
+    "other rounds": (
+        ["--session", "s.toml", "--max-rounds", "5"],
+        "with which the session started",
+    ),
     "no such recording": (["--session", "s.toml", "--recording", "no.csv"], "no.csv"),
 }
 

@@ -65,7 +65,7 @@ def test_laws_are_kept_too_and_another_question_is_refused(equipoise):
     assert equipoise(*LAWS).out == first.out
     refused = equipoise(*LAWS, "--tilt-deg", 10)
     assert refused.code == 2
-    assert "another question (tilt: 0.349" in refused.err
+    assert "another study (tilt: 0.349" in refused.err
     assert "the same study, or another folder" in refused.err
 
 

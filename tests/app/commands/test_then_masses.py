@@ -42,7 +42,7 @@ def test_both_levels_are_simulated_and_written_down_as_one(equipoise, tmp_path, 
     text = reported(done.out)
     assert text.index("Weights first, to within (55, 55, 55) um") < text.index("Add ")
     assert text.index("can correct the rest") < text.index("Move (to target)")
-    assert "handled" in text
+    assert "placed or removed" in text
     assert "moves of masses" in text
     assert {p.name for p in (tmp_path / "out").iterdir()} >= {
         "report.html", "report.pdf", "balance.json", "testbed.toml", "run.json", "recording.csv",

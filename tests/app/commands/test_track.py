@@ -66,7 +66,7 @@ def test_a_video_becomes_a_recording(equipoise, tmp_path, pictures):
     assert "found in 11 of 12 pictures" in done.out
     assert "~ 1 pictures: no marker found, 2 wanted" in done.out
     assert "deg per axis" in done.out
-    assert "the same in all pictures" in done.out
+    assert "common to all pictures" in done.out
     observed_rightly(tmp_path / "run.csv")
 
 

@@ -58,7 +58,7 @@ def test_the_first_piece_that_fails_is_the_one_that_is_reported(pools):
     for name, pool in pools.items():
         with pytest.raises(InputError, match="piece 13: found an odd one") as error:
             list(spread_over(pool)(many_pieces.failing, range(40)))
-        assert any("piece 13 of the work" in note for note in error.value.__notes__), name
+        assert any("chunk 13 of the work" in note for note in error.value.__notes__), name
 
 
 def test_workers_have_one_thread_of_linear_algebra_and_are_other_processes(pools):

@@ -88,7 +88,7 @@ def test_results_of_another_question_are_refused_and_never_counted(tmp_path):
         return KeptResults(tmp_path / name, question | changed, key, print)
 
     run_of(kept("one"))
-    with pytest.raises(InputError, match=r"another question \(duration: 30.0 there, 31"):
+    with pytest.raises(InputError, match=r"another study \(duration: 30.0 there, 31"):
         kept("one", duration=31.0)
     with pytest.raises(InputError, match="options hold: com_x there, com_y here"):
         kept("one", options={"hold": ("com_y",)})

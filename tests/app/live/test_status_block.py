@@ -110,7 +110,7 @@ def test_a_drawing_failure_is_reported_in_the_block_and_nowhere_else():
     found = view()
     found.newest = None
     (_, reported) = drawn(found, 120)
-    assert reported.startswith("  the view has failed, the bench goes on: AttributeError")
+    assert reported.startswith("  the view has failed, the bench continues: AttributeError")
 
 
 def interactive(monkeypatch, **environment):

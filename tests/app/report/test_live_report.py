@@ -170,7 +170,11 @@ def test_the_cursor_stands_at_the_same_moment_in_all_charts_of_the_record(opened
     plot = opened.plot("figure08_rate")
     plot.scroll_into_view_if_needed()
     box = plot.bounding_box()
-    plot.hover(position={"x": box["width"] / 2, "y": 20})
+    unit = opened.figure("figure08_rate").locator(".eq-unit").first
+    for down in range(20, 40):  # a page that still settles moves away from under the pointer
+        plot.hover(position={"x": box["width"] / 2, "y": down})
+        if "at" in unit.inner_text():
+            break
     moments = [
         moment_of(opened.figure(name).locator(".eq-unit").first)
         for name in ("figure08_rate", "gyro_residual", "figure06_attitude")

@@ -59,7 +59,7 @@ def test_a_sound_record_has_no_problem() -> None:
         (lambda w: w[:, [0, 2, 1]] * [1, -1, 1], 'axes = ["x", "z", "-y"]'),
         (lambda w: np.degrees(w), "the gyro reads 57.3 times the rate of the attitude"),
         (lambda w: w * [1, 1, 1.3], "gyro z reads 1.3 times the rate of the attitude"),
-        (lambda w: np.round(w / 0.01) * 0.01, "gyro x comes in steps of 0.573 deg/s"),
+        (lambda w: np.round(w / 0.01) * 0.01, "gyro x is quantised to 0.573 deg/s"),
         (lambda w: w * [1, 0, 1], "gyro y is 0 deg/s in every row"),
     ],
 )
@@ -105,7 +105,7 @@ def test_gaps_are_found_with_their_span() -> None:
     found = findings(Recording(attitude=Samples(T[keep], q[keep])))
     found = [finding for finding in found if finding.kind == "problem"]
     assert [f.span for f in found] == [(pytest.approx(20.0), pytest.approx(40.0))]
-    assert "a gap of 20 s at 20 s" in found[0].sentence
+    assert "gap of 20 s at 20 s" in found[0].sentence
 
 
 def test_moves_of_masses_are_reported_with_times_and_sizes() -> None:
@@ -162,7 +162,7 @@ def test_a_platform_on_its_side_is_a_turned_frame() -> None:
     recording = Recording(attitude=Samples(np.arange(50) * 0.1, q))
     wrong = " ".join(f.sentence for f in findings(recording, read_preset("sputnix")))
     assert "gravity does not point down: the median tilt is 90 deg" in wrong
-    assert "body axis y is the most upright" in wrong
+    assert "body axis y is nearest to vertical" in wrong
     assert "gravity" not in " ".join(f.sentence for f in findings(recording))
 
 
@@ -193,7 +193,7 @@ def test_steps_finer_than_the_noise_are_no_problem() -> None:
     """Rounding to a tenth of the noise is reported, as content."""
     recording = recorded(lambda w: np.round(w / 1e-4) * 1e-4)
     assert "steps" not in said(recording)
-    assert "gyro x comes in steps of 0.00573 deg/s" in said(recording, "content")
+    assert "gyro x is quantised to 0.00573 deg/s" in said(recording, "content")
 
 
 @pytest.mark.parametrize("noise", [1e-4, 1e-3, 1e-2])

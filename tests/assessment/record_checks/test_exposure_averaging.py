@@ -159,4 +159,4 @@ def test_the_real_record() -> None:
     assert reported.steady
     sentences = " ".join(f.sentence for f in findings(record))
     assert "row 601 at 60 s is not averaged like the others" in sentences
-    assert "the mean over 0.0971 s" in sentences
+    assert "an average over 0.0971 s" in sentences

@@ -73,6 +73,6 @@ def test_assumed_sensor_noise_is_reported() -> None:
     testbed, recording = builders.platform(), Recording(rate=rates(0.01))
     (reported,) = unstated_findings(recording, testbed)
     # 0.01 rad/s = 0.573 deg/s, estimated to some per cent from 4000 rows
-    assert "no sensor.gyro: its noise is taken as 0.5" in reported.sentence
+    assert "no sensor.gyro: its noise is assumed to be 0.5" in reported.sentence
     assert unstated_findings(recording, builders.platform(gyro=True)) == []
     assert unstated_findings(recording, None) == []

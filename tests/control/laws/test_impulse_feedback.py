@@ -171,5 +171,5 @@ def test_weak_jets_are_refused():
 
 def test_coarse_jets_are_refused():
     coarse = tuple(JetPair(j.name, j.axis, 0.2, min_pulse=0.05) for j in table().jets)
-    with pytest.raises(InputError, match="least pulses"):
+    with pytest.raises(InputError, match="minimum pulses"):
         law.begin(replace(guess(), jets=coarse), np.zeros(3))

@@ -109,7 +109,7 @@ def test_without_sparing_slow_masses_do_not_damp(monkeypatch):
 def test_fine_masses_that_take_long_over_a_coarse_step_are_refused():
     """0.1 mm/s with coarse steps of 0.1 mm: five seconds for half of one."""
     slow = replace(guess(), masses=masses(0.1e-3))
-    with pytest.raises(InputError, match="5 s late"):
+    with pytest.raises(InputError, match="5 s of delay"):
         pid.begin(slow, np.zeros(3))
 
 

@@ -208,7 +208,7 @@ def test_it_begins_at_the_prior_centre_of_mass_lowered_by_two_sd():
 
 
 def test_a_target_aside_of_up_is_refused():
-    with pytest.raises(InputError, match="along up"):
+    with pytest.raises(InputError, match="on the up axis"):
         underactuated.LAW.begin(platform(), np.array([1e-5, 0, -1e-4]))
 
 

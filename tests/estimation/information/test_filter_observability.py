@@ -394,7 +394,7 @@ def test_unobservable_directions_are_expressed_in_the_fewest_states():
 
 def test_a_single_state_is_named_alone():
     words = directions(np.eye(6)[:, 5:], np.zeros(6), EKF.states)
-    assert [each.sentence for each in words] == ["the data do not show com_z"]
+    assert [each.sentence for each in words] == ["the data do not determine com_z"]
 
 
 # --- Along a recording ------------------------------------------------------------------------

@@ -84,7 +84,7 @@ def test_a_drift_is_found_and_its_declaration_stated(spin):
     check_found(found, GROUPS["drift"], DRIFT * way, platform.com)
     (reason,) = [r for r in found.outcome.reasons if r.code is Why.TERMS_TO_DECLARE]
     assert reason.parameters == ("drift",)
-    assert "[disturbance] consider in the testbed file: drift" in reason.sentence
+    assert "Declare drift under [disturbance] consider" in reason.sentence
 
 
 def thermometer(noise: float) -> Samples:

@@ -166,7 +166,7 @@ def test_what_is_held_does_not_drown_the_rest():
     scale = scale_of(VALUES, SIZE)
     view = observability.examine_unheld(information, scale, SIZE, LAYOUT.names, held)
     assert hidden(view) == {"com_z"}
-    assert [each.sentence for each in view.unobservable] == ["the data do not show com_z"]
+    assert [each.sentence for each in view.unobservable] == ["the data do not determine com_z"]
     observed = ~held & (unit("com_z") == 0)
     sd = np.sqrt(np.diag(view.covariance))
     np.testing.assert_allclose(sd[observed], SIZE[observed] / 1e3, rtol=1e-9)

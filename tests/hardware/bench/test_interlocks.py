@@ -81,7 +81,7 @@ def test_a_silent_sensor_stops_moving_masses_and_is_only_reported_at_rest():
     quiet = {("imu", "rate"): 0.6}
     assert kind(silent=quiet) is None
     assert silence(replace(CALM, silent=quiet), LIMITS).sentence == (
-        "sensor imu has given no row of rate for 0.6 s"
+        "sensor imu has not delivered a row of rate for 0.6 s"
     )
     assert kind(silent=quiet, boards={"masses": board("moving", goal=5e-3)}) == "silence"
 

@@ -51,7 +51,7 @@ def test_a_stuck_wheel_is_found_after_ten_times_what_may_be_late():
     assert (reason.code, reason.parameters) == (Interlock.NOT_FOLLOWING, ("w", "rad/s"))
     assert reason.numbers["wanted"] == pytest.approx(24.0, abs=0.5)
     assert reason.numbers["counted"] == 0.0
-    assert "rad/s were commanded within 1.2 s, and 0 rad/s counted" in reason.sentence
+    assert "rad/s were commanded within 1.2 s, and 0 rad/s measured" in reason.sentence
 
 
 def test_a_wheel_that_turns_the_other_way_or_by_less_than_half_is_found():

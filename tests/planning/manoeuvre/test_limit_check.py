@@ -149,7 +149,7 @@ def test_it_is_said_which_limit_is_passed_by_how_much_and_what_may_help():
     """70.8 deg of 30 are 2.36 times; 4 deg/s are within 5. Known to 40 um, without a record."""
     where = space("sputnix", 120.0)
     text = str(out_of_reach(where, np.radians([[70.8, 4.0], [20.0, 3.0]]), 28, alone=True))
-    assert "does with 1 of 2 platforms" in text
+    assert "does with 1 of 2 possible platforms" in text
     assert "others reach 2.4 times the tilt limit of 30 deg; wanted" in text
     assert "prior record (the centre of mass is known to 40 um only)" in text
     assert "rate" not in text

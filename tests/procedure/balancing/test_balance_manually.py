@@ -217,7 +217,7 @@ def test_placement_instructions_list_moves_first():
     reported = errands(placing_of(before, after), BED)
     assert [reason.sentence for reason in reported] == [
         "Move 2 x washer from deck:A1 to deck:B1.",
-        "Take off 1 x washer at deck:A1, 1 x washer at deck:A2.",
+        "Remove 1 x washer at deck:A1, 1 x washer at deck:A2.",
     ]
     assert placing_of(before, after).handled == 4
     assert errands(placing_of(after, before), BED)[1].code == "weights_to_put_on"

@@ -55,7 +55,7 @@ def test_a_hold_whose_rails_end_fails_and_says_so():
     *_, last = balance_and_hold(bench, replace(FIRST, max_time=60.0), HoldOptions(duration=600.0))
     assert (last.kind, last.verdict.outcome) == ("stop", "failed")
     assert last.verdict.code == "rails_ended"
-    assert "the end of their rails" in last.sentence
+    assert "the ends of their rails" in last.sentence
 
 
 def test_the_tracker_goes_on_under_a_lamp_that_is_on():

@@ -20,7 +20,7 @@ def test_a_height_known_to_1_7_um_cannot_pass_3_um():
     judged = verdict_on([at(1.6, 1.1, 0.1, sd_um=(0.1, 0.1, 1.7))], AIM, 600.0)
     assert judged.outcome == "undecided"
     assert judged.reasons[0].parameters == ("z",)
-    assert "z not known well enough" in judged.sentence
+    assert "z not known precisely enough" in judged.sentence
 
 
 @pytest.mark.parametrize(

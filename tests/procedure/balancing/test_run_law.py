@@ -360,7 +360,7 @@ def test_a_platform_beyond_its_tilt_limit_is_stopped():
     steps, bench = ended(reported(*[wide] * 50), thrown)
     verdict = steps[-1].verdict
     assert (steps[-1].kind, verdict.outcome) == ("stop", "halted")
-    assert "tilts to its limit" in verdict.sentence
+    assert "reaches its tilt limit" in verdict.sentence
     stood = bench.displacements
     assert 0.0 < stood[2] < 0.04
     observed = bench.read(2.0)

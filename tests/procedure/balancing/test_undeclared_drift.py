@@ -40,7 +40,7 @@ def test_a_drift_that_nobody_declared_is_found_and_stated(seed):
     assert np.all(np.abs(bench.truth().com - BalanceOptions().target) < BalanceOptions().tolerance)
     assert greatest_error(bench, steps) < 3.0
     (step,) = stated(steps)
-    assert "[disturbance] consider in the testbed file: drift" in step.sentence
+    assert "Declare drift under [disturbance] consider" in step.sentence
     assert any(r.code is Why.TERMS_TO_DECLARE for r in steps[-1].estimate.outcome.reasons)
 
 

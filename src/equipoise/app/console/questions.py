@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from equipoise.app.console.terminal import complain, stderr
+from equipoise.app.console.terminal import complain, reply_to
 from equipoise.model.errors import InputError
 
 Answer = TypeVar("Answer")
@@ -31,9 +31,8 @@ def answered(question: Question[Answer], number: int) -> Answer:
     Raises InputError where the input ends.
     """
     while True:
-        stderr().print(f"{number}. {question.text} [{question.default}]: ", end="")
         try:
-            given = input().strip()
+            given = reply_to(f"{number}. {question.text} [{question.default}]: ")
         except EOFError:
             raise InputError(question.text, "the end of the input", "an answer") from None
         try:

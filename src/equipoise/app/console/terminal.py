@@ -74,11 +74,16 @@ def notice(sentence: str) -> None:
 
 def agreed(question: str) -> bool:
     """Ask a person; anything but yes is no, and so is nobody there."""
-    stderr().print(f"{question} [y/n] ", end="")
     try:
-        return input().strip().lower() in ("y", "yes")
+        return reply_to(f"{question} [y/n] ").lower() in ("y", "yes")
     except EOFError:
         return False
+
+
+def reply_to(question: str) -> str:
+    """Print a question and return what a person types; EOFError where the input ends."""
+    stderr().print(question, end="")
+    return input().strip()
 
 
 @contextmanager

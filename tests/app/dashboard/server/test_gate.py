@@ -58,7 +58,7 @@ def test_another_name_for_us_is_refused():
     for host in ("evil.example:8080", "127.0.0.1:9999", "127.0.0.1"):
         answer = client(host=host).get("/")
         assert answer.status_code == 403
-        assert "not at" in answer.json()["refused"]
+        assert "not served at" in answer.json()["refused"]
 
 
 FOREIGN = ("http://evil.example", "https://127.0.0.1:8080", "null", "http://127.0.0.1:8081",

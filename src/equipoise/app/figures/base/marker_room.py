@@ -5,11 +5,15 @@ What lies quite beyond the limits stays there, such as the long bars of a first 
 """
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from equipoise.app.figures.base.canvas import Axes, Figure
 from equipoise.model.arrays import Floats
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 POINTS = 72.0  # an inch
 AIR = 1.5  # times a marker's radius, chosen: panels are placed anew, some of them smaller
@@ -17,7 +21,7 @@ MOST = 4  # times that limits are widened; each time panels hold more in the sam
 UNMARKED = ("None", "none", "", " ")
 
 
-def make_room(figure: Figure) -> Figure:
+def make_room(figure: "Figure") -> "Figure":
     """Return the figure with limits that hold all markers in view."""
     for axes in figure.axes:
         if axes.name == "rectilinear" and axes.axison:
@@ -27,7 +31,7 @@ def make_room(figure: Figure) -> Figure:
     return figure
 
 
-def widened(axes: Axes, dpi: float) -> bool:
+def widened(axes: "Axes", dpi: float) -> bool:
     """Widen the limits of a panel by what its markers lack; say whether any lacked."""
     axes.autoscale_view()  # else limits are those of before the last line
     box = np.array(axes.get_window_extent().extents).reshape(2, 2)
@@ -48,7 +52,7 @@ def widened(axes: Axes, dpi: float) -> bool:
     return True
 
 
-def markers(axes: Axes, dpi: float) -> Iterator[tuple[Floats, float]]:
+def markers(axes: "Axes", dpi: float) -> Iterator[tuple[Floats, float]]:
     """Yield where the markers of each line are (n, 2), pixels, and their radius, pixels."""
     for line in axes.lines:
         if line.get_marker() in UNMARKED or line.get_transform() != axes.transData:
