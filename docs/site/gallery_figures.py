@@ -34,7 +34,7 @@ def identified() -> Sequence[Picture]:
     ellipsoid = inertia_ellipsoid.draw(body_with(bed, values))
     return [
         Picture("record", RECORD, recording.plot()),
-        *of_fit(recording, bed, fit_motions(recording, bed, found)),
+        *of_fit(recording, fit_motions(recording, bed, found)),
         Picture("intervals", intervals.CAPTION, found.plot()),
         Picture("ellipsoid", inertia_ellipsoid.CAPTION, ellipsoid),
         *of_move(recording, tracked_courses(recording, bed, found, compare=True), truth),
@@ -45,7 +45,7 @@ def balanced() -> Sequence[Picture]:
     """Return figures of a balancing."""
     bed = eq.preset(PRESET)
     done = eq.balance(eq.SimulatedBench(bed, seed=SEED))
-    courses = balancing_courses(done.recording, bed, done.estimate, done.steps)
+    courses = balancing_courses(done.recording, bed, done.estimate)
     return balance_views.pictures_of(done, courses)
 
 

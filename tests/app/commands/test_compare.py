@@ -64,7 +64,7 @@ def test_methods_are_compared_and_written_down(equipoise, strict_json, tmp_path)
     parser = Balanced()
     parser.feed(page)
     assert parser.open == []
-    assert page.count('src="data:image/svg+xml') == len(list(folder.glob("figures/*.svg"))) == 2
+    assert page.count("src='data:image/svg+xml") == len(list(folder.glob("figures/*.svg"))) == 2
     assert "report.html" in done.err
 
 

@@ -13,12 +13,12 @@ from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.build import estimate_sections, findings_section, steps_section
 from equipoise.app.report.run_record import Output, RunRecord, origin
 from equipoise.app.runs.assessment import AssessedPlatform
-from equipoise.app.text.blocks import Blocks, Claim, Section
+from equipoise.app.text.blocks import Blocks, Section, paragraphs
 from equipoise.app.text.estimate_text import outcome_claim, unobservable_items
 from equipoise.app.text.json_document import estimate_json
 from equipoise.app.text.json_results import ASSESS
 from equipoise.app.text.json_shape import View
-from equipoise.app.text.run_blocks import recording_blocks, verdict_blocks, verdict_claim
+from equipoise.app.text.run_blocks import recording_blocks, verdict_blocks
 from equipoise.app.views.assess_tables import (
     change_table,
     check_items,
@@ -48,7 +48,8 @@ def blocks(reported: AssessedPlatform) -> Blocks:
     """Return tables and the verdict, what it rests on, and what the recording contains."""
     return (
         *tables_of(reported),
-        _last_word(reported),
+        *conclusion(reported),
+        *paragraphs("" if reported.steps[-1].verdict else reported.steps[-1].sentence),
         *unobservable_items(reported.done.estimate),
         *recording_blocks(reported.findings),
     )
@@ -63,12 +64,6 @@ def tables_of(reported: AssessedPlatform) -> Blocks:
     before = () if reported.before is None else (change_table(reported.before, done),)
     hours = () if reported.hours is None else (hours_table(reported.hours),)
     return (*usable, torque_table(done), *before, *hours)
-
-
-def _last_word(reported: AssessedPlatform) -> Claim:
-    """Return the verdict, or without one the last step's sentence."""
-    verdict = reported.steps[-1].verdict
-    return Claim(reported.steps[-1].sentence) if verdict is None else verdict_claim(verdict)
 
 
 def record_of(reported: AssessedPlatform) -> RunRecord:
