@@ -158,6 +158,8 @@ def nobody_is_shut_out(chromium, running):
             page.get_by_role("tab", name=tab).click()
             assert once_settled(page, barriers) == []  # what fades in has no contrast of its own
         page.get_by_role("switch", name="Dark").click()
+    button(page, "Release").click()  # a page that is closed keeps it until its socket is given up
+    expect(button(page, "Start balancing")).to_be_disabled(timeout=SOON)
     page.close()
 
 

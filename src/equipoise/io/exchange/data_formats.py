@@ -4,7 +4,7 @@ import csv
 import io as streams
 import json
 import math
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -100,5 +100,5 @@ def matlab(stated: StatedBody) -> bytes:
         "sign_of_products": TENSOR, "remarks": list(stated.remarks),
     }  # fmt: skip
     stream = streams.BytesIO()
-    savemat(stream, {"platform": platform}, oned_as="row")
+    savemat(cast(Any, stream), {"platform": platform}, oned_as="row")
     return stream.getvalue()

@@ -12,6 +12,8 @@ them; each is compared under both assumptions, s = +1 (tensor) and -1 (integrals
 Where a body has one product only, principal moments do not show its sign.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from equipoise.io.exchange.mass_text import Block, MassText, Notation
@@ -42,7 +44,9 @@ def body_of(
     _check_points(stated, source)
     shown = _shown_signs(stated)
     said = notation or next((each.notation for each in stated.blocks if each.notation), None)
-    kinds = set(shown.values()) | ({said} if said else set())
+    kinds = set[Notation](shown.values())
+    if said:
+        kinds.add(said)
     if len(kinds) > 1:
         found = "; ".join(f"{what}: {kind}" for what, kind in shown.items())
         raise InputError(source, f"products said to be {said}, but {found}", "--products as it is")
@@ -87,13 +91,18 @@ def _shown_signs(stated: MassText) -> dict[str, Notation]:
         "principal moments": _misfits_of_moments(stated),
         "feasibility": _misfits_of_feasibility(stated),
     }
-    found = {what: _better(misfits) for what, misfits in checks.items() if misfits is not None}
-    return {what: kind for what, kind in found.items() if kind is not None}
+    shown = dict[str, Notation]()
+    for what, misfits in checks.items():
+        kind = None if misfits is None else _better(misfits)
+        if kind is not None:
+            shown[what] = kind
+    return shown
 
 
 def _better(misfits: dict[Notation, float]) -> Notation | None:
     """Return the sign that fits, if the other clearly does not."""
-    low, high = sorted(misfits, key=lambda kind: misfits[kind])
+    ranked: list[Notation] = sorted(misfits, key=misfits.__getitem__)
+    low, high = ranked
     fits = misfits[low] < DIGITS
     return low if fits and misfits[high] > CLEAR * max(misfits[low], DIGITS / CLEAR) else None
 
@@ -104,7 +113,7 @@ def _misfits_of_points(stated: MassText) -> dict[Notation, float] | None:
         return None
     due = elements(parallel_axis(stated.mass, stated.centre))[3:]
     printed = (about_O.six - about_C.six)[3:]
-    return {kind: _relative(sign * printed - due, due) for kind, sign in SIGNS.items()}
+    return _of_both(lambda sign: _relative(sign * printed - due, due))
 
 
 def _misfits_of_moments(stated: MassText) -> dict[Notation, float] | None:
@@ -112,18 +121,21 @@ def _misfits_of_moments(stated: MassText) -> dict[Notation, float] | None:
     if about_C is None or len(stated.principal) != 3:
         return None
     printed = np.sort(list(stated.principal.values()))
-    size = np.abs(about_C.six[3:]).max()
-    return {
-        kind: _relative(np.linalg.eigvalsh(signed(about_C, sign)) - printed, np.array([size]))
-        for kind, sign in SIGNS.items()
-    }
+
+    def misfit(sign: float) -> float:
+        moments = np.linalg.eigvalsh(signed(about_C, sign)).astype(np.float64, copy=False)
+        return _relative(moments - printed, about_C.six[3:])
+
+    return _of_both(misfit)
 
 
 def _misfits_of_feasibility(stated: MassText) -> dict[Notation, float]:
-    possible = {
-        kind: smallest_second_moment(_central(stated, sign)) > 0 for kind, sign in SIGNS.items()
-    }
-    return {kind: 0.0 if yes else 1.0 for kind, yes in possible.items()}
+    return _of_both(lambda sign: 0.0 if smallest_second_moment(_central(stated, sign)) > 0 else 1.0)
+
+
+def _of_both(misfit: Callable[[float], float]) -> dict[Notation, float]:
+    """Return the misfit under either assumption."""
+    return {kind: misfit(sign) for kind, sign in SIGNS.items()}
 
 
 def _relative(left: Floats, due: Floats) -> float:
