@@ -154,7 +154,7 @@ def test_it_is_said_which_limit_is_passed_by_how_much_and_what_may_help():
     assert "prior record (the centre of mass is known to 40 um only)" in text
     assert "rate" not in text
     text = str(out_of_reach(where, np.radians([[29.0, 11.0], [2.0, 8.0]]), 28, alone=False))
-    assert "does with 0 of 2 platforms" in text
+    assert "does with 0 of 2 possible platforms" in text
     assert "come to 2.2 times the rate limit of 5 deg/s" in text
     assert "tilt" not in text
     assert "prior record" not in text

@@ -43,8 +43,10 @@ def body_of(
     """
     _check_points(stated, source)
     shown = _shown_signs(stated)
-    said = notation or next((each.notation for each in stated.blocks if each.notation), None)
-    kinds = set[Notation](shown.values())
+    said: Notation | None = notation or next(
+        (each.notation for each in stated.blocks if each.notation), None
+    )
+    kinds: set[Notation] = set(shown.values())
     if said:
         kinds.add(said)
     if len(kinds) > 1:
