@@ -41,8 +41,9 @@ def test_readme_is_short():
 def test_every_command_has_a_page_with_all_of_its_options():
     pages = dict(command_pages())
     listed = pages["reference/commands/index.md"]
-    names = [name for name in app if not name.startswith("-")]
-    assert len(names) == sum(len(commands) for commands in GROUPS.values())
+    every = [command for commands in GROUPS.values() for command in commands]
+    names = [n for n in app if n[0] != "-" and app[n].default_command in every]
+    assert len(names) == len(every)
     for name in names:
         page = pages[f"reference/commands/{name}.md"]
         assert page.startswith(f"# equipoise {name}\n")

@@ -57,7 +57,7 @@ def test_check_finds_a_sound_bench_sound(bench):
     scattered = [line for line in problems if "intervals vary" in line]
     assert problems == scattered
     assert "board masses: answers, settings agree, x, y, z at home" in out
-    assert [f"mass {name}: went 1 mm out and back" in out for name in "xyz"] == [True] * 3
+    assert [f"mass {name}: moved 1 mm and back" in out for name in "xyz"] == [True] * 3
     assert "messages" in out
     if scattered:
         pytest.skip("the computer was too busy for real time: rows came at odd intervals")

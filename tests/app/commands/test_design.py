@@ -26,7 +26,7 @@ def test_it_reports_reach_steps_measurements_budget_and_the_limiting_contributio
     assert done.code == 0
     for text in ("110", "1.1", "153", "limits the result", "Improvements, most effective first"):
         assert text in done.out
-    assert "Not stated, and not counted: lean of the rails, warmth" in done.out
+    assert "Not stated, and therefore neglected: misalignment of the rails" in done.out
 
 
 def test_json_is_one_document(equipoise, strict_json):

@@ -199,7 +199,7 @@ def test_a_column_of_a_wheel_is_named_where_it_is_left_behind(equipoise, tmp_pat
     done = equipoise("import", str(raw), "--out", str(out))
     assert done.code == 0
     said = " ".join(done.out.split())
-    assert "'wheel x rpm' goes from 20 to 26" in said
+    assert "'wheel x rpm' ranges from 20 to 26" in said
     assert "[[reaction_wheel]]" in said
     again = equipoise("convert", str(out), str(tmp_path / "run.parquet"))
     assert again.code == 0

@@ -155,7 +155,7 @@ def test_it_is_said_which_limit_is_passed_by_how_much_and_what_may_help():
     assert "rate" not in text
     text = str(out_of_reach(where, np.radians([[29.0, 11.0], [2.0, 8.0]]), 28, alone=False))
     assert "does with 0 of 2 possible platforms" in text
-    assert "come to 2.2 times the rate limit of 5 deg/s" in text
+    assert "reach 2.2 times the rate limit of 5 deg/s" in text
     assert "tilt" not in text
     assert "prior record" not in text
     assert text.endswith("a higher rate limit")

@@ -204,7 +204,7 @@ def better_table(found: Sizing) -> Table:
 
 def uncounted(case: Case) -> tuple[str, ...]:
     """Return what nothing was stated of, and what therefore does not count."""
-    rails = () if case.rail_lean > 0 else ("lean of the rails",)
+    rails = () if case.rail_lean > 0 else ("misalignment of the rails",)
     return (*rails, *not_stated(case.around))
 
 

@@ -55,7 +55,7 @@ def body_of(
     if not kinds and _has_products(stated):
         wanted = "--products tensor (J_xy = -integral of x y dm) or --products integrals"
         raise InputError(source, "products of inertia whose sign nothing in it shows", wanted)
-    kind: Notation = next(iter(kinds), "tensor")
+    kind: Notation = kinds.pop() if kinds else "tensor"
     inertia_C = _central(stated, SIGNS[kind])
     if smallest_second_moment(inertia_C) <= 0:
         raise InputError(source, "a physically inconsistent inertia", "the units as printed")
