@@ -26,7 +26,8 @@ MARKUP = "[red]a[/red] [link=x]b[/link] <script>c</script> #eval(1) $d @e =f ../
 PAGE = re.compile(r"<script>c|data:text|onerror=")
 # What the other arguments of a command are, so that the one in question is what is wrong.
 GIVEN = {"TESTBED": "sputnix", "FILE": "run.csv", "SOURCE": "run.csv", "--testbed": "sputnix",
-         "--out": "taken/x", "SHOWN": "run.csv", "OUT": "taken/x.csv", "RUN": "taken", "PAPER": "none", "--to": "urdf"}  # fmt: skip
+         "--out": "taken/x", "SHOWN": "run.csv", "OUT": "taken/x.csv", "RUN": "taken",
+         "PAPER": "none", "--to": "urdf"}  # fmt: skip
 
 
 def words_of() -> Iterator[tuple[str, ...]]:
