@@ -10,6 +10,7 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.study.papers import ivanov_run, lee, review_run, table1
 from equipoise.study.papers.items import ITEMS
 from equipoise.study.papers.paper_row import Agreement
+from tests.support import thorough
 
 SHORT = 16.0  # s: the large slew has passed its singularity
 FIGURES = {f"figure{k:02d}" for k in range(3, 19)}
@@ -89,6 +90,7 @@ def checked(done, strict_json, paper):
     return document
 
 
+@thorough.whole
 def test_ivanov_has_all_figures_from_4_to_15(equipoise, strict_json, tmp_path, monkeypatch):
     """A hold of 20 s in place of half an hour."""
     monkeypatch.setattr(ivanov_run, "ivanov_run", partial(ivanov_run.ivanov_run, hold=20.0))
@@ -100,6 +102,7 @@ def test_ivanov_has_all_figures_from_4_to_15(equipoise, strict_json, tmp_path, m
     assert {"section 4", "Fig. 7", "Fig. 9a", "Fig. 13", "Figs. 14, 15", "section 5"} <= places
 
 
+@thorough.whole
 def test_the_review_has_its_null_vector_and_its_tables(equipoise, strict_json, monkeypatch):
     """By a method and a law of each row that a claim compares."""
     from equipoise.app.runs import comparison
