@@ -12,7 +12,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from docs.site.gathered import ROOT
-from tests.support.dashboard_program import CHROMIUM, Received, browser
+from tests.support.dashboard_program import CHROMIUM, Received, barriers, browser, pictures
 
 LOADED = re.compile(r"<(?:script|img|iframe|source|video|audio|embed)\b[^>]*?\bsrc=\"([^\"]*)\"")
 LINKED = re.compile(r"<link\b[^>]*>")
@@ -21,8 +21,7 @@ PAGES = (
     "index", "reference/commands/identify", "reference/python/identify",
     "reference/python/Estimate", "gallery/index",
 )  # fmt: skip
-SERIOUS = {"serious", "critical"}
-PHONE, DESK = (390, 844), (1280, 720)
+PICTURED = {"index", "gallery/index"}
 
 
 def built(folder: Path) -> Path:
@@ -58,23 +57,19 @@ def foreign(site: Path) -> list[str]:
     ]
 
 
-def faults(site: Path) -> list[str]:
-    """Return the serious faults that axe-core finds, in light on a desk, in dark on a phone."""
-    from axe_playwright_python.sync_playwright import Axe
-
+def faults(site: Path, folder: Path) -> list[str]:
+    """Return serious faults by axe-core in both themes; take pictures of some pages."""
     found: list[str] = []
     with browser() as opened:
-        for scheme, (width, height) in (("light", DESK), ("dark", PHONE)):
-            size = {"width": width, "height": height}
-            page = opened.new_page(color_scheme=scheme, viewport=size)
+        for scheme in ("light", "dark"):
+            page = opened.new_page(color_scheme=scheme)
             received = Received(page)
             for name in PAGES:
                 page.goto((site / f"{name}.html").as_uri())
-                found += [
-                    f"{name}, {scheme}: {fault['id']}, {fault['nodes'][0]['html']}"
-                    for fault in Axe().run(page).response["violations"]
-                    if fault["impact"] in SERIOUS
-                ]
+                shown = f"site-{scheme}-{name.replace('/', '-')}"
+                pictured = name in PICTURED
+                faults = pictures(page, folder, shown, barriers) if pictured else barriers(page)
+                found += [f"{name}, {scheme}: {fault}" for fault in faults]
             assert received.requested == {""}  # files have no host
             page.close()
     return found
@@ -87,7 +82,7 @@ def test_the_site_is_whole_offline_and_open_to_all(tmp_path):
     assert foreign(site) == []
     if CHROMIUM is None:
         pytest.skip("no chromium, so no page was looked at: apt-get install chromium")
-    assert faults(site) == []
+    assert faults(site, tmp_path / "pictures") == []
 
 
 def test_a_page_that_requests_another_host_is_found(tmp_path):
