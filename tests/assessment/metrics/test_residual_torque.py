@@ -53,6 +53,13 @@ def test_an_uncertainty_of_one_step_is_the_slope():
     assert ahead.value - here.value == pytest.approx(here.sd, rel=0.01)
 
 
+def test_what_is_unobservable_across_up_does_not_widen_the_period():
+    """A run that ends unmeasured knows nothing of x and y; half of 3 um in 90 is the period's."""
+    period = swing_period(WEIGHT, np.array([0, 0, -90e-6]), np.array([np.inf, np.inf, 3e-6]),
+                          INERTIA, UP)  # fmt: skip
+    assert period.sd / period.value == pytest.approx(0.5 * 3 / 90)
+
+
 def test_a_doubtful_inertia_makes_the_period_doubtful():
     """Both 4 % and 3 % of r and J: half of 5 % of the period."""
     sd = np.array([0.0, 0.0, 0.04 * 90e-6])

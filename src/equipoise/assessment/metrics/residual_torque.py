@@ -42,7 +42,8 @@ def swing_period(
     if height <= 0:
         return Uncertain(np.inf, np.inf)
     period = 2 * np.pi / float(swing_rates(weight * height, inertia_P, -up)[0])
-    return Uncertain(period, period / 2 * float(np.linalg.norm(sd * up)) / height)
+    counts = up != 0  # across up an sd may be infinite, and adds nothing
+    return Uncertain(period, period / 2 * float(np.linalg.norm(sd[counts] * up[counts])) / height)
 
 
 def with_doubtful_inertia(period: Uncertain, inertia_sd: float) -> Uncertain:
