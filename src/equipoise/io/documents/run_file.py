@@ -4,10 +4,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from pydantic import ConfigDict, TypeAdapter, ValidationError, with_config
+from pydantic import ConfigDict, TypeAdapter, with_config
 
+from equipoise.io.documents.json_document import read_document
 from equipoise.io.documents.run_folder import A_RUN
-from equipoise.io.files.source_file import read_bytes
 from equipoise.model.errors import InputError
 from equipoise.model.logged_run import RUN, LoggedRun
 
@@ -33,12 +33,7 @@ def read_run(folder: Path) -> LoggedRun:
     Raises InputError if the file is not there, or if it is not one.
     """
     path = folder / RUN
-    try:
-        document = _DOCUMENT.validate_json(read_bytes(path, A_RUN))
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ": ".join((str(path), *map(str, first["loc"])))
-        raise InputError(where, first["msg"], "a run, equipoise/run/1") from error
+    document = read_document(_DOCUMENT.validate_json, path, A_RUN, "a run, equipoise/run/1")
     for p in (*document.run.parameters, *document.run.standing):
         if p.sd < 0:
             raise InputError(f"{path}: sd of {p.name}", f"{p.sd:g}", "one that is not negative")

@@ -3,12 +3,11 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
+from equipoise.io.documents.json_document import read_document
 from equipoise.io.documents.run_folder import A_RUN
-from equipoise.io.files.source_file import read_bytes
 from equipoise.model.criterion import VerdictOutcome
-from equipoise.model.errors import InputError
 from equipoise.model.recorded_step import RecordedStep
 
 BALANCE = "balance.json"  # in the folder of a balancing
@@ -45,12 +44,7 @@ def read_steps(folder: Path) -> tuple[RecordedStep, ...]:
     path = folder / BALANCE
     if not path.is_file():
         return ()
-    try:
-        document = _DOCUMENT.validate_json(read_bytes(path, A_RUN))
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ": ".join((str(path), *map(str, first["loc"])))
-        raise InputError(where, first["msg"], "the document of a balancing") from error
+    document = read_document(_DOCUMENT.validate_json, path, A_RUN, "the document of a balancing")
     return tuple(map(_recorded, document.steps))
 
 

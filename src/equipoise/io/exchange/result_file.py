@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import BaseModel, Field, TypeAdapter, ValidationError
+from pydantic import BaseModel, Field, TypeAdapter
 
+from equipoise.io.documents.json_document import read_document
 from equipoise.io.documents.run_folder import TESTBED
-from equipoise.io.files.source_file import read_bytes
 from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.arrays import Square
 from equipoise.model.errors import InputError
@@ -74,7 +74,8 @@ def read_body(path: str | Path, testbed: Testbed | None = None) -> tuple[StatedB
     ``testbed`` has the mass; None: that of the run's folder. InputError where no body was found.
     """
     file = _document_of(Path(path))
-    found, where = _estimate_in(_read(file), str(file)), str(file)
+    document, where = read_document(_DOCUMENT.validate_json, file, WANTED, WANTED), str(file)
+    found = _estimate_in(document, where)
     values = {p.name: p for p in found.parameters}
     names = (*BODY[:6], *standing_com(values))
     _check_whole(values, names, where)
@@ -96,15 +97,6 @@ def _document_of(path: Path) -> Path:
     if not there:
         raise InputError(str(path), "none of " + ", ".join(DOCUMENTS), WANTED)
     return there[0]
-
-
-def _read(file: Path) -> _Found | _Holding | _Balance:
-    try:
-        return _DOCUMENT.validate_json(read_bytes(file, WANTED))
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ": ".join((str(file), *map(str, first["loc"])))
-        raise InputError(where, first["msg"], WANTED) from error
 
 
 def _estimate_in(document: _Found | _Holding | _Balance, where: str) -> _Found:

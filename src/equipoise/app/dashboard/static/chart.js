@@ -1,6 +1,7 @@
 /** One strip chart: lines with bands of one sd against bench time, and marks behind them. */
 
 import uPlot from "./vendor/uPlot.esm.js";
+import { axisOf } from "./axis.js";
 import { Heading, make } from "./chart_heading.js";
 import { lineStyles } from "./colours.js";
 import { drawn } from "./decimate.js";
@@ -8,7 +9,6 @@ import { drawMoments, drawRule, drawTargets } from "./marks.js";
 import { extent, niceRange } from "./nice.js";
 import { tick, unitOf } from "./units.js";
 
-const FONT = '11px system-ui, "DejaVu Sans", sans-serif';
 const BAND_ALPHA = "30"; // of 255 in hexadecimal, chosen: three bands on one another are visible
 const TARGETED = "com"; // the series that the goal's target and tolerance are of
 const NO_ROWS = "No measurement yet.";
@@ -66,16 +66,7 @@ export class Chart {
   }
 
   axis(size, space, text) {
-    return {
-      size,
-      space,
-      gap: 3,
-      font: FONT,
-      stroke: () => this.colours?.quiet,
-      grid: { stroke: () => this.colours?.grid, width: 1 },
-      ticks: { stroke: () => this.colours?.grid, width: 1, size: 4 },
-      values: (_, splits) => splits.map(text),
-    };
+    return axisOf(() => this.colours, size, space, text);
   }
 
   line(lineStyle) {

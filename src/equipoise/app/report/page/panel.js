@@ -1,6 +1,7 @@
 /** One panel of a chart: lines with bands, dots or bars; zoomed, moved, with lines to be hidden. */
 
 import uPlot from "./vendor/uPlot.esm.js";
+import { FONT, axisOf } from "./axis.js";
 import { Heading, make } from "./chart_heading.js";
 import { lineStyles } from "./colours.js";
 import { drawBand, drawShaded, drawStems } from "./panel_marks.js";
@@ -8,7 +9,6 @@ import { Pointer } from "./pointer.js";
 import { extent, niceRange } from "./nice.js";
 import { tick, typeset } from "./units.js";
 
-const FONT = '11px system-ui, "DejaVu Sans", sans-serif';
 const BAND_ALPHA = "30"; // of 255 in hexadecimal, chosen: three bands on one another are visible
 const DOT_ALPHA = "80"; // chosen: a line of the same colour is visible on dots
 const HEIGHT = 210; // px
@@ -77,16 +77,7 @@ export class Panel {
   }
 
   axis(size, space, text) {
-    return {
-      size,
-      space,
-      gap: 3,
-      font: FONT,
-      stroke: () => this.colours?.quiet,
-      grid: { stroke: () => this.colours?.grid, width: 1 },
-      ticks: { stroke: () => this.colours?.grid, width: 1, size: 4 },
-      values: (_, splits) => splits.map(text),
-    };
+    return axisOf(() => this.colours, size, space, text);
   }
 
   colour(c) {
