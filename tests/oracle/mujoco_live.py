@@ -133,12 +133,16 @@ class MujocoBench:
         for _ in range(round(duration / STEP)):
             way = self._goal - self._reported
             self._reported += np.clip(way, -speed * STEP, speed * STEP)
+            self._before_step()
             self._data.ctrl[self._slides] = self._reported
             self._data.qfrc_applied[:3] = self._from_coils() + self._from_jets()
             mujoco.mj_step(self._model, self._data)
             self._steps += 1
             self._measurement()
         return self._recording()
+
+    def _before_step(self) -> None:
+        """Let what surrounds the platform have its effect; there is nothing here."""
 
     def _from_coils(self) -> Array:
         """Return the torque of the coils in the laboratory's field, N m, body axes."""
