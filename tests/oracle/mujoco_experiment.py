@@ -35,6 +35,7 @@ class Surroundings:
 
 def warmth(t: Array, on: tuple[tuple[float, float], ...], warms: float, lag: float) -> Array:
     """Return the warmth (K) at times after a lamp was on between pairs of times."""
+
     def risen(since: float) -> Array:
         return warms * -np.expm1(-np.maximum(t - since, 0.0) / lag)
 
@@ -44,6 +45,7 @@ def warmth(t: Array, on: tuple[tuple[float, float], ...], warms: float, lag: flo
 def pointing(t: float) -> Array:
     """Return the attitude that the experiment wants at a time (s) since it began."""
     leg, within = divmod(t, EACH)
+
     def way(k: float) -> Array:
         heading = 2.4 * k  # rad, chosen: no two legs alike
         return LEAN * np.array([np.cos(heading), np.sin(heading), 0.0]) if k > 0 else np.zeros(3)

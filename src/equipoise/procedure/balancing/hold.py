@@ -43,7 +43,12 @@ from equipoise.procedure.balancing.hold_posterior import (
     shifted,
     standing,
 )
-from equipoise.procedure.balancing.hold_verdict import Measured, verdict_on
+from equipoise.procedure.balancing.hold_verdict import (
+    Measured,
+    course_from,
+    followed,
+    verdict_on,
+)
 from equipoise.procedure.balancing.motion_budget import (
     NO_LIMIT,
     MotionBudget,
@@ -162,23 +167,23 @@ def hold(
     """
     testbed, held, began = slowed(bench.testbed, options.motion), start, bench.time
     end, due = began + options.duration, began + options.report
-    course, wait = [posterior_of(held, testbed, options)], SOON
+    course, wait = course_from(posterior_of(held, testbed, options), options), SOON
     while bench.time < end - 1e-9 and held.granted is not Permission.DONE:
         fresh, wait = bench.read(min(wait, end - bench.time)), options.every
         held, track = measured(held, fresh, testbed)
         on_held(held)
-        lapse = min(options.every, end - bench.time)
-        course += outlook(held, testbed, options, lapse)
+        now, later = outlook(held, testbed, options, lapse := min(options.every, end - bench.time))
         why = reason_to_stop(fresh, *arrival(held, testbed, options, lapse), testbed, options)
         if why is not None:
             bench.stop()
-            yield stop_step(bench, course[-2], why, bench.time - began)
+            yield stop_step(bench, now, why, bench.time - began)
             return
         if bench.time >= due - 1e-9:
             due, shift = due + options.report, shift_by(testbed, held.displacement)
             yield estimate_step(bench.time, estimate_at_end(track, testbed, shift))
-        held, steps, later = acted(bench, held, options, lapse)
-        course[-1] = later or course[-1]
+        held, steps, moved = acted(bench, held, options, lapse)
+        for claim in (now, moved or later):
+            course = followed(course, claim, options)
         yield from (replace(step, recording=fresh) for step in steps)
     judged = verdict_on(course, options, bench.time - began)
     yield Step("verify", bench.time, judged.reasons, verdict=judged)
