@@ -60,7 +60,7 @@ class ExperimentBench(MujocoBench):
     def __init__(
         self, testbed: Testbed, platform: Platform, surroundings: Surroundings, seed: int
     ) -> None:
-        self._around, self._began = surroundings, None
+        self._around, self._began, self._away = surroundings, None, np.zeros(3)
         super().__init__(testbed, platform, seed)
         self._own = np.random.default_rng([seed, 7])
         self._bare = self._model.body_ipos[1].copy()
@@ -70,8 +70,17 @@ class ExperimentBench(MujocoBench):
         self.q, self.coms, self.masses = list[Array](), list[Array](), list[Array]()
 
     def begin(self) -> None:
-        """Let the experiment begin."""
+        """Let the experiment begin, from the attitude that the platform has."""
         self._began = self.time
+        q = self._data.qpos[:4]
+        away = np.sign(q[0]) * q[1:]
+        sine = float(np.linalg.norm(away))
+        self._away = 2.0 * np.arcsin(min(sine, 1.0)) * away / max(sine, 1e-12)
+
+    def _wanted(self, t: float) -> Array:
+        """Return the attitude that is wanted at a time (s) since it began; smooth from the first on."""
+        left = 1.0 - float(smooth(np.array(min(t / (2 * SLEW), 1.0))))
+        return product(rotation(left * self._away), pointing(t))
 
     def end(self) -> None:
         """Let the wheels run free."""
@@ -103,7 +112,7 @@ class ExperimentBench(MujocoBench):
 
     def _control(self, t: float) -> None:
         q, w = self._data.qpos[:4].copy(), self._data.qvel[:3].copy()
-        wanted = pointing(t)
+        wanted = self._wanted(t)
         self.t.append(self.time)
         self.q.append(q)
         self.coms.append(self.com)
@@ -112,7 +121,7 @@ class ExperimentBench(MujocoBench):
         rate = w + OWN_NOISE[1] * self._own.normal(size=3)
         turn = product(observed * np.array([1.0, -1.0, -1.0, -1.0]), wanted)
         e = 2.0 * np.sign(turn[0]) * turn[1:]
-        ahead = product(wanted * np.array([1.0, -1.0, -1.0, -1.0]), pointing(t + 0.01))
+        ahead = product(wanted * np.array([1.0, -1.0, -1.0, -1.0]), self._wanted(t + 0.01))
         asked = 2.0 * ahead[1:] / 0.01  # rad/s, of the reference
         J = self._platform.inertia_P
         u = J @ (STIFF**2 * e + 2 * DAMPED * STIFF * (asked - rate))

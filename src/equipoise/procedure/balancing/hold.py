@@ -20,7 +20,8 @@ from equipoise.dynamics.sag_trim import sag_coefficients
 from equipoise.estimation.methods.tracker import estimate_at_end
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.predict_correct import DRIFTING
-from equipoise.estimation.tracker.warmth import heat_of, warmth_of
+from equipoise.estimation.tracker.known_inputs import inputs_kept, inputs_of
+from equipoise.estimation.tracker.warmth import warmth_of
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
@@ -145,8 +146,8 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
         covariance[every] = estimate.covariance_of((*known, *DRIFT))
     for k in DRIFTING[-3:]:
         covariance[k, k] += WARMING**2
-    heat = heat_of(None, knowledge.recording)
-    return replace(state, rate=rate, drift=drift, covariance=covariance, heat=heat)
+    inputs = inputs_kept(inputs_of(None, knowledge.recording), t)
+    return replace(state, rate=rate, drift=drift, covariance=covariance, inputs=inputs)
 
 
 def begun(knowledge: Knowledge, testbed: Testbed, sag: Matrix3 | None = None) -> Held:
