@@ -78,7 +78,7 @@ class ExperimentBench(MujocoBench):
         self._away = 2.0 * np.arcsin(min(sine, 1.0)) * away / max(sine, 1e-12)
 
     def _wanted(self, t: float) -> Array:
-        """Return the attitude that is wanted at a time (s) since it began; smooth from the first on."""
+        """Return the attitude that is wanted at a time (s) since it began, without a jump."""
         left = 1.0 - float(smooth(np.array(min(t / (2 * SLEW), 1.0))))
         return product(rotation(left * self._away), pointing(t))
 
