@@ -156,9 +156,9 @@ def test_no_mass_goes_faster_than_a_move_allows_and_later_ones_go_as_usual(shown
     bench.move({"x": 0.4 * MM, "y": -0.4 * MM}, 0.2 * MM)
     if not shown.obeys:
         return
-    rows = bench.read(1.0).masses
-    assert 0.1 * MM < rows.values[-1, 0] < 0.25 * MM
-    assert rows.values[-1] == pytest.approx([rows.values[-1, 0], -rows.values[-1, 0], 0.0], abs=2e-5)
+    half = bench.read(1.0).masses.values[-1]
+    assert 0.1 * MM < half[0] < 0.25 * MM
+    assert half == pytest.approx([half[0], -half[0], 0.0], abs=2e-5)
     assert bench.read(1.6).masses.values[-1] == pytest.approx([0.4 * MM, -0.4 * MM, 0.0], abs=2e-6)
     bench.move({"x": 4 * MM})
     assert bench.read(0.9).masses.values[-1] == pytest.approx([4 * MM, -0.4 * MM, 0.0], abs=2e-6)

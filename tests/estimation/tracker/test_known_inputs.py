@@ -41,7 +41,7 @@ def in_parts(bed, recording, start):
 
 
 def test_parts_without_a_common_row_give_the_whole_record_s_estimate(driven):
-    """Within 1 % of its sds, where a row less before each part makes it 28 sd of the centre of mass.
+    """Within 1 % of its sds; a row less before each part makes it 28 sd of the centre of mass.
 
     The inertia is given, so that no row is passed again (``relinearisation``).
     """

@@ -9,10 +9,10 @@ import pytest
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.estimation.tracker import event_signatures as onsets
 from equipoise.estimation.tracker.kernel_records import new_tools
+from equipoise.estimation.tracker.known_inputs import inputs_kept, inputs_of
 from equipoise.estimation.tracker.measurements import Rows, followed_by
 from equipoise.estimation.tracker.stored_covariance import SIZE, WARM_ROW
 from equipoise.estimation.tracker.tracker import Params, first_state, steady, track
-from equipoise.estimation.tracker.known_inputs import inputs_kept, inputs_of
 from equipoise.estimation.tracker.warmth import unknown_warmth, warmth_of
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.outcome import Outcome

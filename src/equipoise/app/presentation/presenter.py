@@ -26,6 +26,7 @@ KINDS = {
     "AssessedPlatform": ("of_assessment", "assess_views"),
     "Observation": ("of_observation", "observe_views"),
     "Balancing": ("of_balancing", "balance_views"),
+    "Keeping": ("of_keeping", "keep_views"),
     "Planning": ("of_planning", "plan_views"),
     "Sizing": ("of_sizing", "design_views"),
     "Compared": ("of_comparison", "study.comparison_report"),

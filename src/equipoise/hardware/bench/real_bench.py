@@ -95,7 +95,7 @@ class RealBench:
         return replace(found, momentum=stored_momentum(found, self.testbed))
 
     def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
-        """Set masses on their way to displacements from home (m), no faster than ``speed`` (m/s)."""
+        """Set masses on their way to displacements (m), no faster than ``speed`` (m/s)."""
         keeper = self._keeper
         self._turn()
         if keeper.state.trip is None and not keeper.state.fresh:

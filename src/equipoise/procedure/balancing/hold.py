@@ -19,14 +19,15 @@ from equipoise.actuators.sliding_masses import shift_by
 from equipoise.dynamics.sag_trim import sag_coefficients
 from equipoise.estimation.methods.tracker import estimate_at_end
 from equipoise.estimation.tracker import tracker
-from equipoise.estimation.tracker.predict_correct import DRIFTING
 from equipoise.estimation.tracker.known_inputs import inputs_kept, inputs_of
+from equipoise.estimation.tracker.predict_correct import DRIFTING
 from equipoise.estimation.tracker.warmth import warmth_of
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
+from equipoise.model.permission import Permission
 from equipoise.model.reasons.reason import axes_of, one_reason
-from equipoise.model.reasons.step_reasons import MoveReason
+from equipoise.model.reasons.step_reasons import MoveReason, StepReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
@@ -57,10 +58,9 @@ from equipoise.procedure.balancing.motion_budget import (
     slowed,
     speed_for,
 )
-from equipoise.procedure.balancing.permission import ALWAYS, Permission, Schedule
 from equipoise.procedure.balancing.sag_shift import lever
+from equipoise.procedure.balancing.schedule import ALWAYS, Schedule
 from equipoise.procedure.steps.joint_fit import DRIFT, Knowledge
-from equipoise.procedure.steps.plain_steps import estimate_step
 from equipoise.procedure.steps.planned_move import by_name, planned_move
 from equipoise.procedure.steps.sampler import last_row
 from equipoise.procedure.steps.tilt_guard import tilted
@@ -116,7 +116,10 @@ def unheeded(_held: Held) -> None:
 
 
 def balance_and_hold(
-    bench: Bench, balancing: BalanceOptions, holding: HoldOptions
+    bench: Bench,
+    balancing: BalanceOptions,
+    holding: HoldOptions,
+    on_held: Callable[[Held], None] = unheeded,
 ) -> Iterator[Step]:
     """Yield the Steps of balancing and then of holding.
 
@@ -127,7 +130,8 @@ def balance_and_hold(
     knowledge = yield from balance(bench, balancing)
     tilted_out = tilted(knowledge.recording, bench.testbed, began)
     if knowledge.estimate.outcome.usable and not tilted_out:
-        yield from hold(bench, begun(knowledge, bench.testbed, holding.sag), holding)
+        start = begun(knowledge, bench.testbed, holding.sag)
+        yield from hold(bench, start, holding, on_held)
 
 
 def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
@@ -181,7 +185,9 @@ def hold(
             return
         if bench.time >= due - 1e-9:
             due, shift = due + options.report, shift_by(testbed, held.displacement)
-            yield estimate_step(bench.time, estimate_at_end(track, testbed, shift))
+            found = one_reason(StepReason.COM_AT, **at(now.com, now.sd))
+            estimate = estimate_at_end(track, testbed, shift)
+            yield Step("estimate", bench.time, found, estimate=estimate)
         held, steps, moved = acted(bench, held, options, lapse)
         for claim in (now, moved or later):
             course = followed(course, claim, options)

@@ -4,23 +4,12 @@ An experiment may say at any time that masses must stand, that they may move aga
 over. Who reads that from a socket or a file is not known here.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 
+from equipoise.model.permission import Experiment, Permission
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.reasons.step_reasons import StepReason
-
-
-class Permission(StrEnum):
-    """What masses may do now."""
-
-    FREE = "free"  # move within their budget
-    HOLD = "hold"  # stand
-    DONE = "done"  # the experiment is over
-
-
-Experiment = Callable[[], Permission]
 
 
 def always_free() -> Permission:
