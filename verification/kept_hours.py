@@ -119,7 +119,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Measure one run; fewer than all seeds are as many eighths of the hours."""
     (done,) = spread(kept, [HOURS * len(seeds) / 8])
     claim = (
-        f"`keep` of preset nanosat through emulated Grbl and VN-100 over TCP, recorded to MCAP, for "
+        "`keep` of preset nanosat through emulated Grbl and VN-100 over TCP, recorded to MCAP, for "
         f"{done.hours:.1f} h of bench time, while the centre of mass drifts by 0.19 um/min."
     )
     rows: tuple[Row, ...] = (

@@ -24,6 +24,7 @@ from equipoise.estimation.tracker.predict_correct import DRIFTING
 from equipoise.estimation.tracker.warmth import warmth_of
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
+from equipoise.model.bench_requests import in_steps
 from equipoise.model.estimate import INERTIA
 from equipoise.model.permission import Permission
 from equipoise.model.reasons.reason import axes_of, one_reason
@@ -239,7 +240,7 @@ def acted(
     steps = [Step("control", bench.time, reasons)] if changed else []
     held = replace(held, granted=permission)
     if permission is not Permission.FREE:
-        return halted(bench, held), steps, None
+        return halted(bench, held, options.motion), steps, None
     goal = next_goal(held.state, *arrival(held, testbed, options, lapse), testbed, options)
     if goal is None:
         return held, steps, None
@@ -255,12 +256,14 @@ def acted(
     return held, steps, shifted(later, testbed, there - goal)
 
 
-def halted(bench: Bench, held: Held) -> Held:
-    """Let masses stand where they are."""
-    if np.array_equal(held.aimed, held.displacement):
+def halted(bench: Bench, held: Held, budget: MotionBudget) -> Held:
+    """Let masses stand at the step of their motors that they are next to."""
+    masses, here = bench.testbed.masses, held.displacement
+    steps = np.array([in_steps(mass, float(d)) for mass, d in zip(masses, here, strict=True)])
+    if np.array_equal(held.aimed, steps):
         return held
-    bench.move(by_name(bench.testbed, held.displacement))
-    return replace(held, aimed=held.displacement)
+    bench.move(by_name(bench.testbed, steps), speed_for(bench.testbed, steps - here, budget))
+    return replace(held, aimed=steps)
 
 
 def params_for(knowledge: Knowledge) -> tracker.Params:
