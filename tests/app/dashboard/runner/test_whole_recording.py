@@ -5,7 +5,7 @@ import pytest
 
 from equipoise.app.arguments.recorded_run import RecordedRun
 from equipoise.app.dashboard.runner import whole_recording as module
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.whole_recording import whole_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recorded_step import RecordedStep

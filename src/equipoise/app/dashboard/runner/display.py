@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 from equipoise.app.dashboard.runner.chart_rows import parts_of
 from equipoise.app.dashboard.runner.documents import estimated
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.recorder import Recorder
 from equipoise.estimation.tracker.tracker import Track

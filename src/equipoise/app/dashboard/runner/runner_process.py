@@ -16,7 +16,7 @@ from uuid import uuid4
 from equipoise.app.console.crash_file import crash_of
 from equipoise.app.dashboard.runner.background_jobs import COMMAND
 from equipoise.app.dashboard.runner.benches import Station, real, replayed, simulated
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.request_handler import Desk
 from equipoise.app.dashboard.runner.runner import Runner

@@ -1,0 +1,103 @@
+"""Gravity's torque told to controllers while rows arrive: the tracker, and where it is sent."""
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import shift_by
+from equipoise.actuators.stored_momentum import with_known_inputs
+from equipoise.app.live.live_estimate import TAIL, LiveEstimate, grown
+from equipoise.hardware.bench.open_port import open_port
+from equipoise.hardware.transport.datagram_sink import DatagramSink
+from equipoise.io.stream.gravity_datagram import packed
+from equipoise.maths.straight_lines import read_at
+from equipoise.model.arrays import Vector3
+from equipoise.model.given_numbers import GivenNumbers
+from equipoise.model.gravity_torque import GravityTorque
+from equipoise.model.hardware import Port
+from equipoise.model.recording import CHANNELS, Recording, Samples, join, window
+from equipoise.model.testbed import Testbed
+from equipoise.procedure.steps.gravity_feed_forward import (
+    expected,
+    known_body,
+    nothing_expected,
+)
+
+LEAD = 0.06  # s, chosen: half of the time between two slices of a bench that is watched
+Listener = Callable[[GravityTorque], None]
+
+
+class FeedForward:
+    """Takes rows as they arrive, and tells the torque to each listener; an onlooker of a bench.
+
+    An estimate that fails begins anew; until it is usable again, the torque is told as not usable.
+    """
+
+    def __init__(self, testbed: Testbed, given: GivenNumbers, *listeners: Listener) -> None:
+        self._known = known_body(testbed, given)
+        self._listeners = listeners
+        self._begin = LiveEstimate(
+            testbed, prior=self._known.posterior, params=self._known.params
+        )
+        self._estimate, self._waiting = self._begin, Recording()
+
+    def __call__(self, rows: Recording) -> None:
+        """Follow the platform along fresh rows, and tell what is to be expected then."""
+        newest = newest_of(rows)
+        if newest is None:
+            return
+        self._follow(rows)
+        content = self._expected(newest)
+        for listener in self._listeners:
+            listener(content)
+
+    def _follow(self, rows: Recording) -> None:
+        """Let the estimate grow, once an attitude has come by which a field can be turned."""
+        fresh = join(self._waiting, rows)
+        if fresh.attitude is None or not len(fresh.attitude):
+            end = newest_of(fresh)
+            self._waiting = fresh if end is None else window(fresh, end - TAIL, end)
+            return
+        self._waiting = Recording()
+        try:
+            known = with_known_inputs(fresh, self._begin.testbed)
+            self._estimate = grown(self._estimate, known)[0]
+        except Exception:  # whatever it was: the bench, and the stream, go on
+            self._estimate = self._begin
+
+    def _expected(self, newest: float) -> GravityTorque:
+        state = self._estimate.state
+        if state is None:
+            return nothing_expected(newest, LEAD)
+        return expected(state, self._known.heavy, self._shift(newest), newest, LEAD)
+
+    def _shift(self, t: float) -> Vector3:
+        """Return by how much the masses move the centre of mass, as they stand (m)."""
+        testbed, tail = self._begin.testbed, self._estimate.tail
+        masses = None if tail is None else tail.masses
+        if masses is None or not len(masses):
+            return np.zeros(3)
+        return shift_by(testbed, read_at(np.array([t]), masses.t, masses.values)[0])
+
+
+class DatagramStream:
+    """Sends each torque in a datagram, numbered; it never waits, and counts what is lost."""
+
+    def __init__(self, host: str, port: int) -> None:
+        """Open a port that sends there; PortLost where there is no such host."""
+        self.sink = DatagramSink(open_port(Port(f"udpout:{host}:{port}")))
+        self._sequence = 0
+
+    def __call__(self, content: GravityTorque) -> None:
+        """Send it."""
+        self.sink.send(packed(content, self._sequence, time.time_ns()))
+        self._sequence += 1
+
+
+def newest_of(rows: Recording) -> float | None:
+    """Return the time (s) of the newest row of any channel; None if there is none."""
+    channels: list[Samples | None] = [getattr(rows, name) for name in CHANNELS]
+    ends = [float(each.t[-1]) for each in channels if each is not None and len(each)]
+    return max(ends, default=None)
