@@ -1,19 +1,26 @@
 """Gravity's torque told to controllers while rows arrive: the tracker, and where it is sent."""
 
 import time
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Generator
+from contextlib import AbstractContextManager, contextmanager
+from typing import Any
 
 import numpy as np
 
 from equipoise.actuators.sliding_masses import shift_by
 from equipoise.actuators.stored_momentum import with_known_inputs
+from equipoise.app.arguments.feeding import Receiver
+from equipoise.app.console.terminal import complain
 from equipoise.app.live.live_estimate import TAIL, LiveEstimate, grown
+from equipoise.app.live.observed_bench import WatchedBench
+from equipoise.app.live.status_block import SLICE
 from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.transport.datagram_sink import DatagramSink
 from equipoise.io.stream.gravity_datagram import packed
+from equipoise.io.stream.gravity_message import KIND, message_of
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Vector3
+from equipoise.model.bench import Bench
 from equipoise.model.given_numbers import GivenNumbers
 from equipoise.model.gravity_torque import GravityTorque
 from equipoise.model.hardware import Port
@@ -25,7 +32,7 @@ from equipoise.procedure.steps.gravity_feed_forward import (
     nothing_expected,
 )
 
-LEAD = 0.06  # s, chosen: half of the time between two slices of a bench that is watched
+LEAD = 0.5 * SLICE  # s, chosen: the middle of the time until the next slice
 Listener = Callable[[GravityTorque], None]
 
 
@@ -38,9 +45,7 @@ class FeedForward:
     def __init__(self, testbed: Testbed, given: GivenNumbers, *listeners: Listener) -> None:
         self._known = known_body(testbed, given)
         self._listeners = listeners
-        self._begin = LiveEstimate(
-            testbed, prior=self._known.posterior, params=self._known.params
-        )
+        self._begin = LiveEstimate(testbed, prior=self._known.posterior, params=self._known.params)
         self._estimate, self._waiting = self._begin, Recording()
 
     def __call__(self, rows: Recording) -> None:
@@ -82,18 +87,58 @@ class FeedForward:
         return shift_by(testbed, read_at(np.array([t]), masses.t, masses.values)[0])
 
 
-class DatagramStream:
+class DatagramStream(AbstractContextManager["DatagramStream"]):
     """Sends each torque in a datagram, numbered; it never waits, and counts what is lost."""
 
     def __init__(self, host: str, port: int) -> None:
         """Open a port that sends there; PortLost where there is no such host."""
-        self.sink = DatagramSink(open_port(Port(f"udpout:{host}:{port}")))
+        self._sink = DatagramSink(open_port(Port(f"udpout:{host}:{port}")))
         self._sequence = 0
+
+    @property
+    def lost(self) -> int:
+        """How many datagrams the system could not take."""
+        return self._sink.lost
+
+    def close(self) -> None:
+        """Close the port."""
+        self._sink.close()
+
+    def __exit__(self, *_raised: object) -> None:
+        """Close the port."""
+        self.close()
 
     def __call__(self, content: GravityTorque) -> None:
         """Send it."""
-        self.sink.send(packed(content, self._sequence, time.time_ns()))
+        self._sink.send(packed(content, self._sequence, time.time_ns()))
         self._sequence += 1
+
+
+def as_events(event: Callable[[float, str, str, dict[str, Any]], None]) -> Listener:
+    """Return a listener that makes an event of each torque, for a record or a live view.
+
+    ``event`` takes time (s), kind, sentence and data.
+    """
+    return lambda content: event(content.t, KIND, "", message_of(content))
+
+
+@contextmanager
+def fed(
+    bench: Bench, receiver: Receiver | None, note: Callable[[str, str, dict[str, Any]], None]
+) -> Generator[Bench]:
+    """Lend the bench, its rows followed and gravity's torque sent, if there is a receiver.
+
+    ``note`` puts an event (kind, sentence, data) into the record and the live view of the bench.
+    """
+    if receiver is None:
+        yield bench
+        return
+    with DatagramStream(receiver.host, receiver.port) as stream:
+        noted = as_events(lambda _t, kind, sentence, data: note(kind, sentence, data))
+        told = FeedForward(bench.testbed, receiver.given, stream, noted)
+        yield WatchedBench(bench, told, SLICE)
+        if stream.lost:
+            complain(f"feed-forward: the system could not take {stream.lost} datagrams")
 
 
 def newest_of(rows: Recording) -> float | None:

@@ -95,8 +95,8 @@ def unpacked(data: bytes) -> Datagram:
     if len(data) < SIZE or data[:4] != MAGIC:
         found = f"{len(data)} bytes that begin with {data[:4]!r}"
         raise InputError("datagram", found, f"{SIZE} bytes that begin with {MAGIC!r}")
-    _, version, size, sequence, status, t, host_time_ns, lead, hold, *numbers = (
-        LAYOUT.unpack_from(data)
+    _, version, size, sequence, status, t, host_time_ns, lead, hold, *numbers = LAYOUT.unpack_from(
+        data
     )
     known = status in list(TorqueStatus) and all(map(math.isfinite, (t, lead, hold, *numbers)))
     if version != VERSION or size != len(data) or not known:
@@ -129,16 +129,3 @@ def weight_at(age: float, hold: float) -> float:
     datagram, on the receiver's own clock.
     """
     return min(1.0, max(0.0, 1.0 - (age - hold) / FADE))
-
-
-def numbers_of(content: GravityTorque) -> dict[str, float | str | list[float]]:
-    """Return the numbers of a torque by their names in the datagram, for a message in JSON."""
-    return {
-        "status": content.status.name.lower(),
-        "lead_s": content.lead,
-        "torque_N_m": content.torque.tolist(),
-        "torque_sd_N_m": content.torque_sd.tolist(),
-        "first_moment_kg_m": content.first_moment.tolist(),
-        "first_moment_sd_kg_m": content.first_moment_sd.tolist(),
-        "gravity_m_s2": content.gravity.tolist(),
-    }

@@ -87,5 +87,7 @@ def expected(
 
 def nothing_expected(newest: float, lead: float) -> GravityTorque:
     """Return what is sent before there is an attitude: zeros, not usable."""
-    zeros = (np.zeros(3) for _ in range(5))
-    return GravityTorque(newest, lead, *zeros, TorqueStatus.NOT_USABLE)
+    zero = np.zeros(3)
+    return GravityTorque(
+        newest, lead, zero, zero, zero, zero, zero, TorqueStatus.NOT_USABLE
+    )  # fmt: skip
