@@ -30,7 +30,8 @@ def replay(
 
     The page plays the motion back, zooms, and saves charts as PNG and CSV. It commands nothing.
     Ctrl-C ends it. With --terminal, --foxglove or --feed-forward the recording is played back at
-    its own speed instead. Where output is not a terminal, one line is printed for every second of it.
+    its own speed instead. Where output is not a terminal, one line is printed for every second of
+    it.
 
     Parameters
     ----------
