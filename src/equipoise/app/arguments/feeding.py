@@ -60,9 +60,9 @@ def receiver_of(requested: Feeding) -> Receiver | None:
     return Receiver(host, port, given)
 
 
-def address_of(text: str) -> tuple[str, int]:
-    """Return host and port."""
+def address_of(text: str, where: str = "--feed-forward") -> tuple[str, int]:
+    """Return host and port; ``where`` names the option in an error."""
     host, _, port = text.rpartition(":")
     if not host or not port.isdecimal() or not 0 < int(port) < PORTS:
-        raise InputError("--feed-forward", f"'{text}'", WANTED)
+        raise InputError(where, f"'{text}'", WANTED)
     return host, int(port)
