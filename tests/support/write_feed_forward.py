@@ -1,4 +1,4 @@
-"""The C header that ships, and the table of its page: python -m tests.support.write_feed_forward."""
+"""The C header that ships and its page's table: python -m tests.support.write_feed_forward."""
 
 from pathlib import Path
 

@@ -93,8 +93,11 @@ def test_every_field_is_decoded_to_the_last_bit(program):
     found = ran(program, [packed(each, k, NS + k) for k, each in enumerate(sent)])
     assert len(found) == len(sent)
     for k, (each, shown) in enumerate(zip(sent, found, strict=True)):
-        numbers = {name: [float.fromhex(word) for word in words]
-                   for name, words in shown.items() if name.endswith(("_s", "_m", "s2"))}  # fmt: skip
+        numbers = {
+            name: [float.fromhex(word) for word in words]
+            for name, words in shown.items()
+            if name.endswith(("_s", "_m", "s2"))
+        }
         assert shown["code"][0] == "0"
         assert shown["magic"] == list("EQGT")
         assert [shown[name] for name in ("version", "size", "sequence", "status", "host_time_ns")

@@ -21,7 +21,8 @@ A feed-forward is usable where the error that is left is much less than the torq
 
     sqrt(tr Cov tau) <= max(|tau| / 2, m g c),     c = 3 um
 
-Cannot see torques that do not come from gravity: air, cables, magnets.
+Cannot see torques that do not come from gravity: air, cables, magnets. A hand that holds the
+platform looks like a centre of mass that needs no holding.
 """
 
 from dataclasses import dataclass
