@@ -1,8 +1,8 @@
 /* Equipoise: the torque of gravity for the feed-forward of an attitude controller.
  *
  * One UDP datagram holds it, little endian. Vectors are x, y, z in body axes, SI units.
- * C99, no heap; copy this file into your firmware. Written from the table of fields in
- * equipoise.io.stream.gravity_datagram: do not edit.
+ * C99, no heap; copy this file into your firmware. Written by Equipoise from the table of
+ * fields on its page "Feed-forward": do not edit.
  *
  *     static equipoise_gravity_torque last, found;        (all zero before the first)
  *     if (equipoise_decode(data, length, &found) == EQUIPOISE_OK
@@ -25,8 +25,11 @@
 
 typedef char equipoise_double_has_8_bytes[sizeof(double) == 8 ? 1 : -1];
 
+#define EQUIPOISE_MAGIC "EQGT"
 #define EQUIPOISE_VERSION 1
 #define EQUIPOISE_SIZE 168
+#define EQUIPOISE_AT_VERSION 4
+#define EQUIPOISE_AT_SIZE 6
 #define EQUIPOISE_FADE_S 10.0
 
 enum { EQUIPOISE_NOT_USABLE = 0, EQUIPOISE_USABLE = 1, EQUIPOISE_STALE = 2 }; /* of the field status */
@@ -77,14 +80,27 @@ static inline int equipoise_is_finite(const uint8_t *data)
 static inline int equipoise_decode(const uint8_t *data, size_t length,
                                    equipoise_gravity_torque *found)
 {
-    if (length < EQUIPOISE_SIZE || memcmp(data, "EQGT", 4) != 0) return EQUIPOISE_NOT_OURS;
-    if (equipoise_whole(data + 4, 2) != EQUIPOISE_VERSION
-        || equipoise_whole(data + 6, 2) != length) return EQUIPOISE_OTHER_VERSION;
+    if (length < EQUIPOISE_SIZE || memcmp(data, EQUIPOISE_MAGIC, 4) != 0) return EQUIPOISE_NOT_OURS;
+    if (equipoise_whole(data + EQUIPOISE_AT_VERSION, 2) != EQUIPOISE_VERSION
+        || equipoise_whole(data + EQUIPOISE_AT_SIZE, 2) != length) return EQUIPOISE_OTHER_VERSION;
     if (!equipoise_is_finite(data + 16)) return EQUIPOISE_NOT_FINITE;
     if (!equipoise_is_finite(data + 32)) return EQUIPOISE_NOT_FINITE;
     if (!equipoise_is_finite(data + 40)) return EQUIPOISE_NOT_FINITE;
-    for (int at = 48; at < EQUIPOISE_SIZE; at += 8)
-        if (!equipoise_is_finite(data + at)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 48)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 56)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 64)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 72)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 80)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 88)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 96)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 104)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 112)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 120)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 128)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 136)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 144)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 152)) return EQUIPOISE_NOT_FINITE;
+    if (!equipoise_is_finite(data + 160)) return EQUIPOISE_NOT_FINITE;
     memcpy(found->magic, data + 0, 4);
     found->version = (uint16_t)equipoise_whole(data + 4, 2);
     found->size = (uint16_t)equipoise_whole(data + 6, 2);
@@ -108,7 +124,7 @@ static inline int equipoise_decode(const uint8_t *data, size_t length,
 }
 
 /* Whether to act on a datagram from now on, in the place of the last: it is usable and newer, or
- * the last holds no more, since the sender may have begun anew. */
+ * the last holds no more, since the sender may have restarted. */
 static inline int equipoise_replaces(const equipoise_gravity_torque *found,
                                      const equipoise_gravity_torque *last, double age_s)
 {

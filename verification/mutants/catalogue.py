@@ -494,8 +494,8 @@ PROCEDURE = _of(
      "procedure/steps/test_gravity_feed_forward.py"),
     ("steps/gravity_feed_forward.py", "if newest - state.t > SILENT", "if newest < state.t",
      "procedure/steps/test_gravity_feed_forward.py"),
-    ("steps/gravity_feed_forward.py", "np.where(seen[:3], AGED**2, 0.0)",
-     "np.where(seen[:3], 0.0, AGED**2)", "procedure/steps/test_gravity_feed_forward.py"),
+    ("steps/gravity_feed_forward.py", "np.where(shown[:3], AGED**2, 0.0)",
+     "np.where(shown[:3], 0.0, AGED**2)", "procedure/steps/test_gravity_feed_forward.py"),
     ("identification/fitted_motion.py", "exponential(-left.values)", "exponential(left.values)",
      "procedure/identification/test_fitted_motion.py"),
     ("identification/fitted_motion.py", "(rows.values - bias) @", "(rows.values + bias) @",
@@ -629,7 +629,7 @@ IO = _of(
           ('struct.Struct("<"', 'struct.Struct(">"'),
           ("content.torque, content.torque_sd,", "content.torque_sd, content.torque,"),
       )),
-    *(("stream/c_header.py", text, broken, "io/stream/test_c_header.py")
+    *(("stream/gravity_torque_template.h", text, broken, "io/stream/test_c_header.py")
       for text, broken in (
           ("(mu[1] * g[2] - mu[2] * g[1])", "(mu[2] * g[1] - mu[1] * g[2])"),
           ("1.0 - (age_s - hold_s)", "1.0 - (age_s + hold_s)"),

@@ -1,4 +1,4 @@
-"""Gravity's torque told along a bench: true, in time, and whatever happens to the bench."""
+"""Gravity's torque along a bench: true, in time, and whatever happens to the bench."""
 
 import socket
 from dataclasses import replace
@@ -19,8 +19,8 @@ from equipoise.simulation.bench import SimulatedBench
 BED = replace(read_preset("nanosat"), tilt_limit=3.0)
 
 
-def told(bench, seconds, each=0.25, bed=BED):
-    """Return a feed-forward and what it has told along a bench."""
+def followed(bench, seconds, each=0.25, bed=BED):
+    """Return a feed-forward and what it has given along a bench."""
     found = []
     sender = FeedForward(bed, NOTHING_GIVEN, found.append)
     for _ in range(round(seconds / each)):
@@ -28,10 +28,10 @@ def told(bench, seconds, each=0.25, bed=BED):
     return sender, found
 
 
-def test_it_tells_the_true_torque_within_its_sd_through_a_move():
+def test_it_gives_the_true_torque_within_its_sd_through_a_move():
     """A mass that moves by 5 mm shifts the platform's centre of mass by 75 um at once."""
     bench = SimulatedBench(BED, 3)
-    sender, found = told(bench, 20.0)
+    sender, found = followed(bench, 20.0)
     bench.move({"x": 0.005})
     for _ in range(12):
         sender(bench.read(0.25))
@@ -69,7 +69,7 @@ def test_silent_sensors_make_it_stale_and_rows_make_it_usable_again():
     ]  # fmt: skip
 
 
-def test_a_tracker_that_fails_begins_anew_and_the_stream_goes_on(monkeypatch):
+def test_a_tracker_that_fails_restarts_and_the_stream_goes_on(monkeypatch):
     bench, found = SimulatedBench(BED, 1), []
     sender, real = FeedForward(BED, NOTHING_GIVEN, found.append), feed_forward.grown
 

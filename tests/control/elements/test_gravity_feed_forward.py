@@ -15,8 +15,8 @@ from equipoise.control.elements.gravity_feed_forward import (
 )
 from equipoise.dynamics.regressor import MOMENT, SAG, TORQUE, WIDTH, regressor
 from equipoise.maths.attitude import exponential, from_euler321, multiply
+from equipoise.model.units import UM
 
-UM = 1e-6
 LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
 STIFF = Heavy(4.0, 9.8, np.zeros(5), np.zeros((5, 5)))
 SOFT = Heavy(14.0, 9.81, np.array([8.0, -3, 2, -5, 4]) * UM, np.diag([1.0, 2, 3, 4, 5]) * UM**2)
@@ -111,6 +111,7 @@ def test_columns_of_the_sag_are_its_matrix_times_gravitys_direction():
 def test_a_torque_is_usable_where_it_is_known_much_better_than_nothing(torque, sd, usable):
     """Both as a centre of mass sideways, um."""
     weight = STIFF.weight
-    ahead = Ahead(np.zeros(3), np.zeros(3), np.array([torque * UM * weight, 0, 0]), np.zeros((3, 3)),
-                  np.diag([0.5, 0.5, 0.0]) * (sd * UM * weight) ** 2)  # fmt: skip
+    covariance = np.diag([0.5, 0.5, 0.0]) * (sd * UM * weight) ** 2
+    torque_N_m = np.array([torque * UM * weight, 0, 0])
+    ahead = Ahead(np.zeros(3), np.zeros(3), torque_N_m, np.zeros((3, 3)), covariance)
     assert is_usable(ahead, STIFF) is usable

@@ -13,7 +13,7 @@ from equipoise.model.gravity_torque import GravityTorque, TorqueStatus
 COMPILER = shutil.which("gcc") or shutil.which("cc")
 pytestmark = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler here")
 STRICT = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-pedantic", "-O2"]
-NS = 1_790_000_000_123_456_789
+SENT_NS = 1_790_000_000_123_456_789
 FORMATS = {"char": "%c", "uint16_t": "%u", "uint32_t": "%lu", "uint64_t": "%llu", "double": "%a"}
 CASTS = {"uint32_t": "(unsigned long)", "uint64_t": "(unsigned long long)"}
 
@@ -90,7 +90,7 @@ def content(seed, status=TorqueStatus.USABLE):
 
 def test_every_field_is_decoded_to_the_last_bit(program):
     sent = [content(seed, TorqueStatus(seed % 3)) for seed in range(20)]
-    found = ran(program, [packed(each, k, NS + k) for k, each in enumerate(sent)])
+    found = ran(program, [packed(each, k, SENT_NS + k) for k, each in enumerate(sent)])
     assert len(found) == len(sent)
     for k, (each, shown) in enumerate(zip(sent, found, strict=True)):
         numbers = {
@@ -100,8 +100,9 @@ def test_every_field_is_decoded_to_the_last_bit(program):
         }
         assert shown["code"][0] == "0"
         assert shown["magic"] == list("EQGT")
-        assert [shown[name] for name in ("version", "size", "sequence", "status", "host_time_ns")
-                ] == [["1"], ["168"], [str(k)], [str(int(each.status))], [str(NS + k)]]  # fmt: skip
+        whole = {"version": 1, "size": 168, "sequence": k, "status": each.status,
+                 "host_time_ns": SENT_NS + k}  # fmt: skip
+        assert {name: int(shown[name][0]) for name in whole} == whole
         expected = (
             [each.t], [each.lead], [2.0], each.torque, each.torque_sd, each.first_moment,
             each.first_moment_sd, each.gravity,
@@ -114,7 +115,7 @@ def test_every_field_is_decoded_to_the_last_bit(program):
 def test_the_torque_acted_on_is_the_weighted_cross_product(program):
     given, gravity = content(1), (0.5, -0.7, -9.78)
     for age in (0.0, 3.0, 7.0, 20.0):
-        (shown,) = ran(program, [packed(given, 0, NS)], age, gravity)
+        (shown,) = ran(program, [packed(given, 0, SENT_NS)], age, gravity)
         got = [float.fromhex(word) for word in shown["acted_on"]]
         expected = weight_at(age, 2.0) * np.cross(given.first_moment, gravity)
         assert got == pytest.approx(expected, rel=1e-15, abs=1e-30)
@@ -124,7 +125,7 @@ def test_the_torque_acted_on_is_the_weighted_cross_product(program):
 def test_it_takes_what_python_takes(program, age):
     """Numbers that go back, repeat, and pass the end of 32 bits, usable or not."""
     given = [(5, 1), (5, 1), (4, 1), (6, 2), (7, 0), (8, 1), (2**31 + 8, 1), (2**32 - 1, 1), (0, 1)]
-    datagrams = [packed(content(2, TorqueStatus(status)), k, NS) for k, status in given]
+    datagrams = [packed(content(2, TorqueStatus(status)), k, SENT_NS) for k, status in given]
     shown = [each["code"][2] == "1" for each in ran(program, datagrams, age)]
     last, expected = None, []
     for data in datagrams:
@@ -136,7 +137,7 @@ def test_it_takes_what_python_takes(program, age):
 
 
 def test_it_refuses_what_python_refuses(program):
-    whole = packed(content(3), 0, NS)
+    whole = packed(content(3), 0, SENT_NS)
     infinite = whole[:48] + np.array([np.inf]).tobytes() + whole[56:]
     no_lead = whole[:32] + np.array([np.nan]).tobytes() + whole[40:]
     spoilt = [b"", whole[:-1], b"XXXX" + whole[4:], whole + b"\0", infinite, no_lead]

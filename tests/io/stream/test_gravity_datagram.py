@@ -21,13 +21,13 @@ from equipoise.model.gravity_torque import GravityTorque, TorqueStatus
 
 NUMBERS = [np.array([k + 0.1, -k - 0.2, k * 1e-7 + 1e-9]) for k in range(5)]
 CONTENT = GravityTorque(12.5, 0.0625, *NUMBERS, TorqueStatus.USABLE)
-NS = 1_790_000_000_123_456_789
+SENT_NS = 1_790_000_000_123_456_789
 
 
 def test_its_bytes_are_those_of_the_page():
     """Written out from docs/feed-forward.md: 168 bytes, little endian."""
-    data = packed(CONTENT, 2**32 + 7, NS)
-    by_hand = struct.pack("<4sHHIIdQdd", b"EQGT", 1, 168, 7, 1, 12.5, NS, 0.0625, 2.0)
+    data = packed(CONTENT, 2**32 + 7, SENT_NS)
+    by_hand = struct.pack("<4sHHIIdQdd", b"EQGT", 1, 168, 7, 1, 12.5, SENT_NS, 0.0625, 2.0)
     by_hand += struct.pack("<15d", *np.concatenate(NUMBERS))
     assert data == by_hand
     assert len(data) == SIZE == 168
@@ -39,9 +39,9 @@ def test_no_field_needs_a_gap_before_it():
 
 
 def test_it_comes_back_to_the_last_bit():
-    found = unpacked(packed(CONTENT, 7, NS))
-    assert (found.sequence, found.host_time_ns, found.hold) == (7, NS, 2.0)
-    assert packed(found.content, 7, NS) == packed(CONTENT, 7, NS)
+    found = unpacked(packed(CONTENT, 7, SENT_NS))
+    assert (found.sequence, found.host_time_ns, found.hold) == (7, SENT_NS, 2.0)
+    assert packed(found.content, 7, SENT_NS) == packed(CONTENT, 7, SENT_NS)
     assert found.content.status is TorqueStatus.USABLE
 
 
@@ -49,13 +49,13 @@ def test_it_comes_back_to_the_last_bit():
     "spoilt",
     [
         b"",
-        packed(CONTENT, 0, NS)[:-1],
-        b"XXXX" + packed(CONTENT, 0, NS)[4:],
-        packed(CONTENT, 0, NS)[:4] + struct.pack("<H", 2) + packed(CONTENT, 0, NS)[6:],
-        packed(CONTENT, 0, NS) + b"\0",
-        packed(CONTENT, 0, NS)[:12] + struct.pack("<I", 3) + packed(CONTENT, 0, NS)[16:],
-        packed(replace(CONTENT, torque=np.array([0.0, np.nan, 0.0])), 0, NS),
-        packed(replace(CONTENT, lead=np.inf), 0, NS),
+        packed(CONTENT, 0, SENT_NS)[:-1],
+        b"XXXX" + packed(CONTENT, 0, SENT_NS)[4:],
+        packed(CONTENT, 0, SENT_NS)[:4] + struct.pack("<H", 2) + packed(CONTENT, 0, SENT_NS)[6:],
+        packed(CONTENT, 0, SENT_NS) + b"\0",
+        packed(CONTENT, 0, SENT_NS)[:12] + struct.pack("<I", 3) + packed(CONTENT, 0, SENT_NS)[16:],
+        packed(replace(CONTENT, torque=np.array([0.0, np.nan, 0.0])), 0, SENT_NS),
+        packed(replace(CONTENT, lead=np.inf), 0, SENT_NS),
     ],
     ids=["empty", "short", "foreign", "version", "long", "status", "nan", "infinite"],
 )
@@ -65,7 +65,7 @@ def test_what_is_no_datagram_is_refused(spoilt):
 
 
 def received(sequence, status=TorqueStatus.USABLE):
-    return unpacked(packed(replace(CONTENT, status=status), sequence, NS))
+    return unpacked(packed(replace(CONTENT, status=status), sequence, SENT_NS))
 
 
 @pytest.mark.parametrize(

@@ -11,9 +11,9 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.given_numbers import NOTHING_GIVEN, GivenNumbers
 from equipoise.model.gravity_torque import TorqueStatus
 from equipoise.model.torque_terms import GROUPS
+from equipoise.model.units import UM
 from equipoise.procedure.steps.gravity_feed_forward import expected, known_body, nothing_expected
 
-UM = 1e-6
 BED = read_preset("nanosat")
 NAMES = (*COM, *INERTIA, *GROUPS["sag"])
 VALUES = np.array([1.0 * UM, 2 * UM, -30 * UM, 0.04, 0.05, 0.03, 1e-4, 2e-4, 3e-4, 1e-6, 2e-6,
@@ -45,7 +45,7 @@ def test_an_estimate_goes_before_it_sag_included():
     assert np.count_nonzero(known.params.torque) == 5
 
 
-def test_what_the_estimate_has_not_seen_comes_from_the_testbed():
+def test_what_the_estimate_did_not_show_comes_from_the_testbed():
     covariance = GIVEN.covariance.copy()
     covariance[2, 2] = np.inf
     known = known_body(BED, replace(GIVEN, covariance=covariance))

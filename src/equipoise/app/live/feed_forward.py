@@ -1,4 +1,4 @@
-"""Gravity's torque told to controllers while rows arrive: the tracker, and where it is sent."""
+"""Gravity's torque for controllers while rows arrive: the tracker, and where it is sent."""
 
 import time
 from collections.abc import Callable, Generator
@@ -37,9 +37,9 @@ Listener = Callable[[GravityTorque], None]
 
 
 class FeedForward:
-    """Takes rows as they arrive, and tells the torque to each listener; an onlooker of a bench.
+    """Takes rows as they arrive, and gives the torque to each listener; an onlooker of a bench.
 
-    An estimate that fails begins anew; until it is usable again, the torque is told as not usable.
+    An estimate that fails restarts; until it is usable again, the torque is given as not usable.
     """
 
     def __init__(self, testbed: Testbed, given: GivenNumbers, *listeners: Listener) -> None:
@@ -49,7 +49,7 @@ class FeedForward:
         self._estimate, self._waiting = self._begin, Recording()
 
     def __call__(self, rows: Recording) -> None:
-        """Follow the platform along fresh rows, and tell what is to be expected then."""
+        """Follow the platform along fresh rows, and report what is to be expected then."""
         newest = newest_of(rows)
         if newest is None:
             return
@@ -135,8 +135,8 @@ def fed(
         return
     with DatagramStream(receiver.host, receiver.port) as stream:
         noted = as_events(lambda _t, kind, sentence, data: note(kind, sentence, data))
-        told = FeedForward(bench.testbed, receiver.given, stream, noted)
-        yield WatchedBench(bench, told, SLICE)
+        sender = FeedForward(bench.testbed, receiver.given, stream, noted)
+        yield WatchedBench(bench, sender, SLICE)
         if stream.lost:
             complain(f"feed-forward: the system could not take {stream.lost} datagrams")
 

@@ -113,7 +113,7 @@ def replaces(found: Datagram, last: Datagram | None, age: float) -> bool:
     """Say whether a receiver should act on a datagram from now on, in the place of the last.
 
     It has to be usable, and to come after the last: by its sequence number, across the end of its
-    32 bits. Once the last (``age`` s) holds no more, the sender may have begun anew: any will do.
+    32 bits. Once the last (``age`` s) holds no more, the sender may have restarted: any will do.
     """
     if found.content.status is not TorqueStatus.USABLE:
         return False

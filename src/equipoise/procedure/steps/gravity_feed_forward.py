@@ -47,13 +47,13 @@ class Known:
 def known_body(testbed: Testbed, given: GivenNumbers) -> Known:
     """Return what is known of a platform before the first row."""
     prior, names = tracker.posterior_of(testbed), (*COM_NAMES, *INERTIA)
-    seen = np.array([given.known((name,)) for name in names])
+    shown = np.array([given.known((name,)) for name in names])
     values = np.concatenate([prior.com, pack_symmetric(prior.inertia_P)])
     covariance = prior.covariance.copy()
-    values[seen], covariance[np.ix_(seen, seen)] = given.of(
-        tuple(name for name, is_seen in zip(names, seen, strict=True) if is_seen)
+    values[shown], covariance[np.ix_(shown, shown)] = given.of(
+        tuple(name for name, is_given in zip(names, shown, strict=True) if is_given)
     )
-    covariance[np.diag_indices(3)] += np.where(seen[:3], AGED**2, 0.0)
+    covariance[np.diag_indices(3)] += np.where(shown[:3], AGED**2, 0.0)
     sag, sag_covariance = given.of(SAG) if given.known(SAG) else (np.zeros(5), np.zeros((5, 5)))
     torque = np.zeros(len(TERMS))
     torque[[TERMS.index(name) for name in SAG]] = sag
