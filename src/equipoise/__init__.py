@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from equipoise.app.api.compare import compare
     from equipoise.app.api.design import design
     from equipoise.app.api.export import export
+    from equipoise.app.api.feed_forward import feed_forward
     from equipoise.app.api.files import preset, read_recording, read_testbed, write_recording
     from equipoise.app.api.identify import identify
     from equipoise.app.api.inertia import inertia
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from equipoise.simulation.bench import SimulatedBench
 
 VERBS = ("identify", "assess", "observe", "balance", "plan", "design", "calibrate", "compare",
-         "simulate", "open_bench", "inertia", "export")  # fmt: skip
+         "simulate", "open_bench", "inertia", "export", "feed_forward")  # fmt: skip
 HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "read_testbed": "equipoise.app.api.files",
     "preset": "equipoise.app.api.files",
@@ -61,6 +62,7 @@ __all__ = [
     "compare",
     "design",
     "export",
+    "feed_forward",
     "identify",
     "inertia",
     "laws",

@@ -102,6 +102,11 @@ class MujocoBench:
         return self._platform.com_at(self._reported)
 
     @property
+    def attitude(self) -> Array:
+        """The attitude now, body to laboratory."""
+        return self._data.qpos[:4].copy()
+
+    @property
     def tilt(self) -> float:
         """The angle between the body's z axis and the vertical, rad."""
         return float(np.arccos(np.clip(matrix(self._data.qpos[:4])[2, 2], -1.0, 1.0)))

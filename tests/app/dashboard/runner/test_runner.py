@@ -10,7 +10,7 @@ from equipoise.app.dashboard.protocol.data_folder import recordings
 from equipoise.app.dashboard.protocol.series import series_of
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.chart_rows import parts_of
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.app.live.pace import Pace
 from equipoise.estimation.tracker import tracker
 from equipoise.io.recording.recording_file import read_recording, write_recording
