@@ -1,5 +1,6 @@
 """`equipoise keep`: balanced, kept, stopped by its experiment, and resumed."""
 
+import contextlib
 import json
 import socket
 import threading
@@ -64,12 +65,14 @@ def test_the_experiment_ends_it_through_the_socket(equipoise, strict_json, tmp_p
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
             own.settimeout(0.2)
             own.connect(("127.0.0.1", port))
-            while not answers and not ended.wait(0.1):
-                try:
-                    own.send(b"done")
+            while not answers:
+                over = ended.wait(0.1)
+                with contextlib.suppress(OSError):  # nobody listens yet, or nobody looks
+                    if not over:
+                        own.send(b"done")
                     answers.append(own.recv(64))
-                except OSError:
-                    continue  # nobody listens yet, or nobody looks
+                if over:
+                    return
 
     speaker = threading.Thread(target=say)
     speaker.start()

@@ -1,7 +1,7 @@
 """`equipoise keep`: masses keep a platform balanced while an experiment runs on it."""
 
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,7 +13,8 @@ from equipoise.app.console.terminal import announced, busy, stderr
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
-    from equipoise.app.runs.keeping import Interrupted, Keeping
+    from equipoise.app.live.feed_forward import Listener
+    from equipoise.app.runs.keeping import Keeping, Session
     from equipoise.model.testbed import Testbed
     from equipoise.procedure.balancing.hold import HoldOptions
 
@@ -35,12 +36,15 @@ class Experiment:
         Time of the day in which masses stand still, such as 22:00-06:30. May be repeated.
     experiment_port
         UDP port of this computer on which the experiment says hold, free or done.
+    feed_forward
+        HOST:PORT to send gravity's torque to in UDP datagrams, for the experiment's controller.
     """
 
     most_torque_un_m: float = 2.0
     most_torque_rate_un_m_s: float | None = None
     quiet: Listed = ()
     experiment_port: Whole | None = None
+    feed_forward: str | None = None
 
 
 USUAL = Experiment()
@@ -94,17 +98,18 @@ def keep(
         from equipoise.app.logbook.output import hand_over, show_report
         from equipoise.app.logbook.run_folder import own_folder
         from equipoise.app.report.write import write_output
-        from equipoise.app.runs.keeping import interrupted
+        from equipoise.app.runs.keeping import Session, interrupted
         from equipoise.app.views.keep_views import output_of
 
         options = _options(lasts, target_um, tolerance_um, experiment, held)
+        listener = _listener(experiment, held)
         begun = None if resume is None else interrupted(resume, bed)
         folder = out or own_folder("keep", bed.name)
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
-        opened = held.pop_all()
+        session, opened = Session(options, begun, folder, listener), held.pop_all()
     with opened:
-        done = _run(bed, options, drawn, (begun, folder), on_bench, show=not json)
+        done = _run(bed, session, drawn, on_bench, show=not json)
     hand_over(output_of(done), json, None, below=True)
     if folder is not None:
         with busy("writing the report", announce=False):
@@ -146,32 +151,34 @@ def _options(
     return options_for(goal, duration, wanted)
 
 
+def _listener(experiment: Experiment, held: ExitStack) -> "Listener | None":
+    """Return where gravity's torque is sent; the port is open then."""
+    if experiment.feed_forward is None:
+        return None
+    from equipoise.app.arguments.feeding import address_of
+    from equipoise.app.live.feed_forward import DatagramStream
+
+    return held.enter_context(DatagramStream(*address_of(experiment.feed_forward)))
+
+
 def _run(
-    bed: "Testbed",
-    options: "HoldOptions",
-    seed: int,
-    place: "tuple[Interrupted | None, Path | None]",
-    on_bench: OnBench,
-    *,
-    show: bool,
+    bed: "Testbed", session: "Session", seed: int, on_bench: OnBench, *, show: bool
 ) -> "Keeping":
     """Keep the simulated platform, or the real one, and show each step."""
     from equipoise.app.runs.balancing import Goal, Limits
-    from equipoise.app.runs.keeping import Session, options_for, run
+    from equipoise.app.runs.keeping import options_for, run
     from equipoise.app.runs.terminal_balancing import at_terminal
     from equipoise.app.runs.terminal_waiting import show_step
     from equipoise.procedure.steps.planned_move import by_name
     from equipoise.simulation.bench import SimulatedBench
 
-    start, folder = place
-    standing = None
+    start, options, standing = session.start, session.options, None
     if start is not None:
-        options = options_for(start.goal, start.left, options)
+        session = replace(session, options=options_for(start.goal, start.left, options))
         standing = by_name(bed, start.kept.displacement)
     shown, through = show_step if show else None, at_terminal(bed)
     if not on_bench.bench:
-        bench = SimulatedBench(bed, seed, standing)
-        return run(bench, Session(options, start, folder), shown, through)
-    prepare(bed, Goal(options.target, options.tolerance), Limits(), on_bench)
+        return run(SimulatedBench(bed, seed, standing), session, shown, through)
+    prepare(bed, Goal(session.options.target, session.options.tolerance), Limits(), on_bench)
     with let_go(bed, on_bench, standing) as bench:
-        return run(bench, Session(options, start, folder), shown, through)
+        return run(bench, session, shown, through)

@@ -26,6 +26,6 @@ def table(done: Keeping) -> Table:
     course = done.course
     found: Table = {"time_s": course.t.tolist()}
     for i, axis in enumerate("xyz"):
-        found[f"com_{axis}_m"] = course.com[:, i].tolist()
+        found[f"com_{axis}_m"] = course.values[:, i].tolist()
         found[f"sd_{axis}_m"] = course.sd[:, i].tolist()
     return found

@@ -12,8 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
+from equipoise.actuators.sliding_masses import shift_by
 from equipoise.app.bench.step_notes import noting
 from equipoise.app.console.stop_request import exit_code_of
+from equipoise.app.live.feed_forward import Listener
 from equipoise.app.runs.balancing import (
     QUIETLY,
     Goal,
@@ -25,9 +27,10 @@ from equipoise.app.runs.balancing import (
 from equipoise.app.runs.waiting import shown
 from equipoise.io.documents.held_file import HeldFile, read_held, write_held
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Series1, Series3
+from equipoise.model.arrays import Series3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError
+from equipoise.model.estimate import COM, Course
 from equipoise.model.presentation import Shown
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -35,22 +38,13 @@ from equipoise.model.torque_terms import TERMS
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.hold import Held, HoldOptions, balance_and_hold, hold
 from equipoise.procedure.balancing.hold_resumed import Kept, kept_of, resumed
+from equipoise.procedure.steps.gravity_feed_forward import expected, heavy_of
 from equipoise.procedure.steps.planned_move import by_name
 from equipoise.simulation.bench import SimulatedBench
 
 EVERY = 1.0  # s between decisions, chosen: an experiment that says hold waits no longer
 REPORTS = 200  # chosen: Steps with an estimate in one keeping, a minute between them at least
 SAVED = 60.0  # s between two files from which a keeping goes on
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Course:
-    """Where the centre of mass stood, as reported: times (s), posterior and truth, m."""
-
-    t: Series1
-    com: Series3
-    sd: Series3
-    truth: Series3 | None = None  # of a simulated platform
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -61,9 +55,10 @@ class Keeping(Shown):
     goal: Goal
     options: HoldOptions
     steps: Sequence[Step]
-    course: Course
+    course: Course  # of com as the masses stood, at each report
     moves: int
     travel: float  # m, of all masses
+    truth: Series3 | None = None  # m, at the same times; of a simulated platform
     seed: int | None = None  # of all that was drawn; None: a real bench, or not known
     stopped_with: int | None = None  # exit code of who was stopped; None: ended by itself
 
@@ -90,6 +85,7 @@ class Session:
     options: HoldOptions
     start: Interrupted | None = None
     folder: Path | None = None
+    listener: Listener | None = None  # of gravity's torque, after every measurement
 
 
 @dataclass(slots=True, eq=False)
@@ -97,8 +93,7 @@ class _Notes:
     """What is noted while a bench is kept."""
 
     bench: Bench
-    options: HoldOptions
-    folder: Path | None
+    session: Session
     steps: list[Step] = field(default_factory=list[Step])
     rows: list[tuple[float, ...]] = field(default_factory=list[tuple[float, ...]])
     moves: int = 0
@@ -108,11 +103,18 @@ class _Notes:
 
     def held(self, held: Held) -> None:
         """Save where the hold stands, now and then."""
-        self.began = self.bench.time if self.began is None else self.began
-        if self.folder is not None and self.bench.time - self.saved >= SAVED:
-            self.saved = self.bench.time
-            left = max(self.began + self.options.duration - self.bench.time, 0.0)
-            write_held(file_of(kept_of(held), self.bench.testbed, self.options, left), self.folder)
+        now, testbed, options = self.bench.time, self.bench.testbed, self.session.options
+        self.began = now if self.began is None else self.began
+        if self.session.listener is not None:
+            heavy, shift = (
+                heavy_of(testbed, held.params.torque),
+                shift_by(testbed, held.displacement),
+            )
+            self.session.listener(expected(held.state, heavy, shift, now, 0.5 * options.every))
+        if self.session.folder is not None and now - self.saved >= SAVED:
+            self.saved = now
+            left = max(self.began + options.duration - now, 0.0)
+            write_held(file_of(kept_of(held), testbed, options, left), self.session.folder)
 
     def step(self, step: Step) -> None:
         """Count a move of the hold; keep any other step."""
@@ -128,11 +130,11 @@ class _Notes:
             true = bench.truth().com if isinstance(bench, SimulatedBench) else nothing
             self.rows.append((step.time, *estimate.values(names), *sd, *true))
 
-    def course(self) -> Course:
-        """Return the course so far."""
+    def course(self) -> tuple[Course, Series3 | None]:
+        """Return the course so far, and the truth at its times."""
         t, com, sd, true = np.split(np.array(self.rows).reshape(-1, 10), [1, 4, 7], axis=1)
         simulated = isinstance(self.bench, SimulatedBench)
-        return Course(t[:, 0], com, sd, true if simulated else None)
+        return Course(COM, t[:, 0], com, sd), true if simulated else None
 
 
 def options_for(goal: Goal, duration: float, options: HoldOptions) -> HoldOptions:
@@ -150,7 +152,7 @@ def run(
 ) -> Keeping:
     """Keep a bench balanced; what stops a real one is the last step. See ``balancing.run``."""
     options, start = session.options, session.start
-    notes = _Notes(bench, options, session.folder)
+    notes = _Notes(bench, session)
     on_step, stopped_with = noting(bench, on_step), None
     watched = through.observe(bench)
     try:
@@ -166,8 +168,9 @@ def run(
             notes.step(step)
     seed = bench.seed if isinstance(bench, SimulatedBench) else None
     goal = Goal(options.target, options.tolerance)
-    return Keeping(bench.testbed, goal, options, notes.steps, notes.course(), notes.moves,
-                   notes.travel, seed, stopped_with)  # fmt: skip
+    course, truth = notes.course()
+    return Keeping(bench.testbed, goal, options, notes.steps, course, notes.moves, notes.travel,
+                   truth, seed, stopped_with)  # fmt: skip
 
 
 def steps_of(

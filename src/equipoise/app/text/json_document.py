@@ -214,8 +214,8 @@ KEEP = document(
     *fields("moves", COUNT),
     *fields("travel_m=travel", NUMBER),
     *fields("t_s=t", VECTOR, "course"),
-    *fields("com_m=com sd_m=sd", MATRIX, "course"),
-    *fields("truth_m=truth", maybe(MATRIX), "course"),
+    *fields("com_m=values sd_m=sd", MATRIX, "course"),
+    *fields("truth_m=truth", maybe(MATRIX)),
     *fields("provenance", by_name(TEXT)),
 )
 

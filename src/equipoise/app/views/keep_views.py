@@ -38,6 +38,7 @@ def document(done: Keeping) -> View:
         "moves": done.moves,
         "travel": done.travel,
         "course": done.course,
+        "truth": done.truth,
         "provenance": _origin(done),
     }
     return KEEP.write(fields)
@@ -53,7 +54,7 @@ def record_of(done: Keeping) -> RunRecord:
     }
     drawn = []
     if len(done.course.t) > 1:
-        figure = kept_com.draw(done.course, goal.target, goal.tolerance)
+        figure = kept_com.draw(done.course, done.truth, goal.target, goal.tolerance)
         drawn = [Picture("kept_com", kept_com.CAPTION, figure)]
     sections: tuple[Section, ...] = (steps_section("Steps", done.steps[-MOST:], {}),)
     return RunRecord(

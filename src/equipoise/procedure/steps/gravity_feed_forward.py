@@ -21,7 +21,7 @@ from equipoise.control.elements.gravity_feed_forward import (
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.predict_correct import COM, RATE_OF_COM
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA
 from equipoise.model.given_numbers import GivenNumbers
@@ -83,6 +83,13 @@ def expected(
         newest, lead, ahead.torque, torque_sd, ahead.first_moment, first_moment_sd, ahead.gravity,
         status,
     )  # fmt: skip
+
+
+def heavy_of(testbed: Testbed, torque: Floats | None) -> Heavy:
+    """Return what gravity acts on, of a tracker with torque coefficients taken as known."""
+    names = [TERMS.index(name) for name in SAG]
+    sag = np.zeros(len(SAG)) if torque is None else torque[names]
+    return Heavy(testbed.body.mass, testbed.gravity, sag, np.zeros((len(SAG), len(SAG))))
 
 
 def nothing_expected(newest: float, lead: float) -> GravityTorque:

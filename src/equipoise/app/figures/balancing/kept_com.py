@@ -5,8 +5,8 @@ import numpy as np
 from equipoise.app.figures.base.canvas import Figure, laid_out
 from equipoise.app.figures.base.strokes import with_legend
 from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
-from equipoise.app.runs.keeping import Course
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Series3, Vector3
+from equipoise.model.estimate import Course
 from equipoise.model.units import MINUTE, UM
 
 CAPTION = (
@@ -16,17 +16,17 @@ CAPTION = (
 
 
 @styled
-def draw(course: Course, target: Vector3, tolerance: Vector3) -> Figure:
+def draw(course: Course, truth: Series3 | None, target: Vector3, tolerance: Vector3) -> Figure:
     """Return the figure."""
     figure = laid_out(WIDE, 3.6)
     panels = figure.subplots(3, 1, sharex=True)
     t = course.t / MINUTE
     for i, (name, axes) in enumerate(zip(AXES, panels, strict=True)):
-        off, band = (course.com[:, i] - target[i]) / UM, BAND * course.sd[:, i] / UM
+        off, band = (course.values[:, i] - target[i]) / UM, BAND * course.sd[:, i] / UM
         axes.fill_between(t, off - band, off + band, color=XYZ[i], alpha=0.25, linewidth=0)
         axes.plot(t, off, color=XYZ[i], label="estimate")
-        if course.truth is not None:
-            true = (course.truth[:, i] - target[i]) / UM
+        if truth is not None:
+            true = (truth[:, i] - target[i]) / UM
             axes.plot(t, true, color="0.2", linestyle=":", label="truth")
         limit = tolerance[i] / UM
         for edge in (-limit, limit):
@@ -35,7 +35,7 @@ def draw(course: Course, target: Vector3, tolerance: Vector3) -> Figure:
         axes.set_ylim(-most, most)
         axes.set_ylabel(f"$r_{name}$, um")
     panels[-1].set_xlabel("bench time, min")
-    if course.truth is not None:
+    if truth is not None:
         with_legend(figure, panels[0])
     figure.align_ylabels(panels)
     return figure
