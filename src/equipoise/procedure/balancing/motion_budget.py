@@ -36,6 +36,7 @@ class MotionBudget:
 
 
 NO_LIMIT = MotionBudget()
+USUAL = MotionBudget(2e-6)  # chosen: what an experiment on a few kg hardly measures
 
 
 def speed_for(testbed: Testbed, way: Floats, budget: MotionBudget) -> float:
