@@ -10,7 +10,7 @@ from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import SAME
 from equipoise.estimation.output_error.drift_scale import scale_row
 from equipoise.estimation.output_error.problem import Prior, Problem, posed
-from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.solution import Fitted, settle
 from equipoise.estimation.parameters.fit_parameters import (
     CORE,
     JP,
@@ -33,6 +33,7 @@ from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model import torque_by_cause as cause
 from equipoise.model.arrays import Floats, Ints, Matrix3, Series1, Series3, Square, Vector3
 from equipoise.model.mass_properties import parallel_axis
+from equipoise.model.torque_terms import TERMS
 
 EVENT_SD = 1.0  # rad/s, m: so wide that it decides nothing
 
@@ -124,6 +125,25 @@ def moved_point(point: Unknowns, step: Floats, problem: Problem) -> Unknowns:
         error=point.error + step[layout.mass_errors],
         bias=point.bias + step[layout.gyro_bias] if layout.bias else point.bias,
     )
+
+
+def relinearised(fitted: Fitted, chain: Chain, by: Coordinates, at: Floats) -> Fitted:
+    """Return the local models about the motion that deviations (K, n') lead to: a Gauss-Newton step.
+
+    The fit itself where that motion is no number.
+    """
+    points, jumps = points_at(fitted, by, at), fitted.jumps.copy()
+    names = fitted.problem.layout.names
+    for k, jump in enumerate(fitted.problem.jumps):
+        change = at[k + 1] - np.concatenate([chain.onward[k] @ at[k], at[k][6:]])
+        torque = points[k + 1].torque - points[k].torque
+        for j, name in enumerate(jump.names):
+            own = name in CARRIER
+            jumps[k, j] = (
+                torque[TERMS.index(name)] if own else jumps[k, j] + change[names.index(name)]
+            )
+    found = settle(fitted.problem, points[0], jumps, 1)
+    return found if np.isfinite(found.at.cost) else fitted
 
 
 class Impulses(NamedTuple):

@@ -49,9 +49,10 @@ def prior_share(process: Process) -> float:
     return float((1 - STILL) * own / (share.sum() * len(CORRELATIONS)))
 
 
-def weighed(chain: Chain) -> tuple[Weighed, ...]:
+def weighed(chain: Chain, coarsely: bool = False) -> tuple[Weighed, ...]:
     """Return the processes that the record leaves, with their courses; weights sum to 1."""
-    processes = (NONE, *(Process(float(s), T) for s in SIZES for T in CORRELATIONS))
+    skip = 4 if coarsely else 1
+    processes = (NONE, *(Process(float(s), T) for s in SIZES[::skip] for T in CORRELATIONS[::skip]))
     improbable = np.array([improbability(chain, process) for process in processes])
     share = np.array([prior_share(p) for p in processes])
     share *= np.exp(-0.5 * (improbable - improbable.min()))
