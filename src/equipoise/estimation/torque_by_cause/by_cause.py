@@ -10,7 +10,8 @@ from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import SAME
 from equipoise.estimation.output_error.drift_scale import scale_row
 from equipoise.estimation.output_error.problem import Prior, Problem, posed
-from equipoise.estimation.output_error.solution import Fitted, settle
+from equipoise.estimation.output_error.segment_jumps import Jump
+from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import (
     CORE,
     JP,
@@ -32,8 +33,9 @@ from equipoise.maths.attitude import exponential, multiply
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model import torque_by_cause as cause
 from equipoise.model.arrays import Floats, Ints, Matrix3, Series1, Series3, Square, Vector3
+from equipoise.model.estimate import COM
+from equipoise.model.estimate import RATE as RATES
 from equipoise.model.mass_properties import parallel_axis
-from equipoise.model.torque_terms import TERMS
 
 EVENT_SD = 1.0  # rad/s, m: so wide that it decides nothing
 
@@ -100,11 +102,28 @@ def chain_of(fitted: Fitted, prior: Prior, by: Coordinates) -> Chain:
         np.diff(problem.line.t[cuts.nodes])[:-1],
         carrier,
         by.torque,
-        tuple(free[(free >= 0) & ~np.isin(free, carrier)] for free in cuts.free),
+        gaps_of(fitted, S.shape[1]),
+        tuple(event_coordinates(jump, layout) for jump in problem.jumps),
         EVENT_SD,
         both,
         S.T @ information @ off,
     )
+
+
+def gaps_of(fitted: Fitted, size: int) -> Floats:
+    """Return from each point where its motion ends, as a deviation (K - 1, size) of the next."""
+    gaps = np.zeros((len(fitted.jumps), size))
+    gaps[:, :6] = -fitted.jumps[:, :6]
+    for k, jump in enumerate(fitted.problem.jumps):
+        if COM[0] in jump.names:
+            gaps[k, R] = -fitted.jumps[k, 9:12]
+    return gaps
+
+
+def event_coordinates(jump: Jump, layout: Layout) -> Ints:
+    """Return what an event may change: the rate; or com alone, of a part that shifts."""
+    names = () if not jump.is_event else COM if COM[0] in jump.names else RATES
+    return np.array([layout.names.index(name) for name in names], dtype=np.int64)
 
 
 def moved_point(point: Unknowns, step: Floats, problem: Problem) -> Unknowns:
@@ -125,25 +144,6 @@ def moved_point(point: Unknowns, step: Floats, problem: Problem) -> Unknowns:
         error=point.error + step[layout.mass_errors],
         bias=point.bias + step[layout.gyro_bias] if layout.bias else point.bias,
     )
-
-
-def relinearised(fitted: Fitted, chain: Chain, by: Coordinates, at: Floats) -> Fitted:
-    """Return the local models about the motion that deviations (K, n') lead to: a Gauss-Newton step.
-
-    The fit itself where that motion is no number.
-    """
-    points, jumps = points_at(fitted, by, at), fitted.jumps.copy()
-    names = fitted.problem.layout.names
-    for k, jump in enumerate(fitted.problem.jumps):
-        change = at[k + 1] - np.concatenate([chain.onward[k] @ at[k], at[k][6:]])
-        torque = points[k + 1].torque - points[k].torque
-        for j, name in enumerate(jump.names):
-            own = name in CARRIER
-            jumps[k, j] = (
-                torque[TERMS.index(name)] if own else jumps[k, j] + change[names.index(name)]
-            )
-    found = settle(fitted.problem, points[0], jumps, 1)
-    return found if np.isfinite(found.at.cost) else fitted
 
 
 class Impulses(NamedTuple):
@@ -172,10 +172,10 @@ def impulses_of(
     first = np.searchsorted(problem.line.t[cuts.nodes], begins - SAME)
     out = Impulses(first, np.array([each.value for each in found]), slope)
     inertia = inertia_at(problem, points[0], start)
-    for k, free in enumerate(cuts.free):
-        if RATE.start in free:
-            onward, where = chain.onward[k, RATE], int(np.flatnonzero(free == RATE.start)[0])
-            jump = fitted.jumps[k, where : where + 3] + at[k + 1, RATE] - onward @ at[k]
+    for k, changed in enumerate(chain.events):
+        if RATE.start in changed:
+            onward = chain.onward[k, RATE]
+            jump = at[k + 1, RATE] - onward @ at[k] - chain.gaps[k, RATE]
             add_contact(out, k, inertia, jump, onward)
     return out
 

@@ -3,14 +3,16 @@
 Stretch k of a record has unknowns x_k at its beginning, d_k their deviation from the point about
 which the motion is linear, and the local model A_k, b_k of its own rows (``segments``). Onward
 
-    d_(k+1) = F_k d_k + E u_k,      u_k ~ N(m_k, Q),       F = [ Phi ; 0 diag(a) ]
+    d_(k+1) = F_k d_k + o_k + E u_k,      u_k ~ N(0, Q),       F = [ Phi ; 0 diag(a) ]
 
     a = exp(-dt / T),    Q = s^2 (1 - a^2)      of the torque's three coordinates, s its sd
-    m = a x_k - x_(k+1)                          of the points themselves; 0 for a jump of an event
+    o                    gap from the end of the motion of k to the point of k + 1; a x_k - x_(k+1)
+                         of the torque. What an event changes has a wide Q instead.
 
 Backwards, with M = P_uu + Q^-1, the information and score of all rows from k on follow,
 
-    P <- A_k + F^T (P - P_u^T M^-1 P_u) F,       p <- b_k + F^T (p - P_u^T M^-1 p_u - P' E m)
+    P' = P - P_u^T M^-1 P_u,     p' = p - P_u^T M^-1 p_u
+    P <- A_k + F^T P' F,         p <- b_k + F^T (p' - P' o)
 
 then forwards the mean and the covariance given all rows (Rauch, Tung and Striebel 1965). The same
 pass gives -2 ln p(rows | s, T) (Schweppe 1965), all unknowns integrated out.
@@ -43,6 +45,7 @@ class Chain(NamedTuple):
     seconds: Floats  # (K - 1,) from each beginning to the next
     carrier: Ints  # (3,) coordinates of the unmodelled torque
     torque: Series  # (K, 3) N m, nu of the points about which it is linear
+    gaps: Floats  # (K - 1, n) o, but for the torque's coordinates
     events: tuple[Ints, ...]  # (K - 1) coordinates that an event may change at each cut
     event_sd: float  # of these, so wide that it decides nothing
     prior: Square  # (n, n) information, without the torque's
@@ -61,7 +64,7 @@ class Step(NamedTuple):
 
     F: Square  # (n, n)
     free: Ints  # (a,) coordinates of u
-    mean: Floats  # (a,) m
+    offset: Floats  # (n,) o
     weight: Floats  # (a,) 1 / Q
 
 
@@ -69,7 +72,7 @@ class Steps(NamedTuple):
     """What the pass backwards leaves of each cut."""
 
     gain: list[Floats]  # M^-1 P_u F
-    firm: list[Floats]  # M^-1 p_u, less what the mean takes, plus the mean
+    firm: list[Floats]  # M^-1 (p_u - P_u o)
     spread: list[Square]  # M^-1
 
 
@@ -89,10 +92,11 @@ def step_at(chain: Chain, k: int, process: Process) -> Step:
     F = np.eye(n)
     F[:6] = chain.onward[k]
     F[chain.carrier, chain.carrier] = stay
-    mean = np.append(stay * chain.torque[k] - chain.torque[k + 1], np.zeros(len(events)))
+    offset = chain.gaps[k].copy()
+    offset[chain.carrier] = stay * chain.torque[k] - chain.torque[k + 1]
     spread = process.sd**2 * -np.expm1(-2 * chain.seconds[k] / process.correlation)
     weight = np.append(np.full(3, 1 / spread), np.full(len(events), chain.event_sd**-2))
-    return Step(F, np.append(chain.carrier, events), mean, weight)
+    return Step(F, np.append(chain.carrier, events), offset, weight)
 
 
 def with_torque(chain: Chain, process: Process) -> tuple[Square, Floats]:
@@ -119,10 +123,10 @@ def backward(
         spread = inverse_spd(M)
         total -= float(p_u @ spread @ p_u) + log_det(spread) + float(np.sum(np.log(at.weight)))
         P, p = P - P_u.T @ spread @ P_u, p - P_u.T @ (spread @ p_u)
-        moved = P[:, at.free] @ at.mean
-        total += float(at.mean @ moved[at.free]) - 2 * float(p[at.free] @ at.mean)
+        moved = P @ at.offset
+        total += float(at.offset @ moved) - 2 * float(p @ at.offset)
         kept.gain.append(spread @ P_u @ at.F)
-        kept.firm.append(at.mean + spread @ (p_u - P_u[:, at.free] @ at.mean))
+        kept.firm.append(spread @ (p_u - P_u @ at.offset))
         kept.spread.append(spread)
         P = symmetrise(chain.normal[k] + at.F.T @ P @ at.F)
         p = chain.descent[k] + at.F.T @ (p - moved)
@@ -160,7 +164,7 @@ def smoothed(chain: Chain, process: Process) -> Course:
         onward[k] = at.F
         onward[k][at.free] -= kept.gain[j]
         fresh[k][np.ix_(at.free, at.free)] = kept.spread[j]
-        mean[k + 1] = onward[k] @ mean[k]
+        mean[k + 1] = onward[k] @ mean[k] + at.offset
         mean[k + 1, at.free] += kept.firm[j]
         covariance[k + 1] = symmetrise(onward[k] @ covariance[k] @ onward[k].T + fresh[k])
     return Course(mean, covariance, onward, fresh)
