@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from equipoise.app.api.files import preset, read_recording, read_testbed, write_recording
     from equipoise.app.api.identify import identify
     from equipoise.app.api.inertia import inertia
+    from equipoise.app.api.ledger import ledger
     from equipoise.app.api.observe import observe
     from equipoise.app.api.open_bench import open_bench
     from equipoise.app.api.plan import plan
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from equipoise.simulation.bench import SimulatedBench
 
 VERBS = ("identify", "assess", "observe", "balance", "plan", "design", "calibrate", "compare",
-         "simulate", "open_bench", "inertia", "export")  # fmt: skip
+         "simulate", "open_bench", "inertia", "export", "ledger")  # fmt: skip
 HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "read_testbed": "equipoise.app.api.files",
     "preset": "equipoise.app.api.files",
@@ -64,6 +65,7 @@ __all__ = [
     "identify",
     "inertia",
     "laws",
+    "ledger",
     "methods",
     "observe",
     "open_bench",

@@ -51,7 +51,6 @@ from equipoise.estimation.torque_by_cause.process_sizes import (
 from equipoise.model.arrays import Series1
 from equipoise.model.estimate import BODY, Estimate
 from equipoise.model.mass_properties import MassProperties
-from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_by_cause import CAUSES, TorqueByCause
@@ -116,7 +115,7 @@ def torque_by_cause(recording: Recording, testbed: Testbed, estimate: Estimate) 
     return TorqueByCause(
         edges[:-1], INTERVAL, tuple(CAUSES[k] for k in there), rows.torque[:, there],
         np.sqrt(rows.variance[:, there]), rows.total, np.sqrt(rows.total_variance), sd, correlation,
-        closure, Outcome(()), recording.source, recording.sha256,
+        closure, recording.source, recording.sha256,
     )  # fmt: skip
 
 

@@ -3,9 +3,9 @@
     weight_j ~ p(rows | s_j, T_j) prior_j,     mean = sum weight_j mean_j,
     variance = sum weight_j (variance_j + (mean_j - mean)^2)
 
-over a grid of sd s and correlation time T. With even odds there is no such torque to speak of. A
-record that does not show the torque leaves the sizes open below what it would show; intervals that
-rest on the likeliest alone, often none, would then be too short.
+over a grid of sd s and correlation time T. A record that does not show the torque leaves the sizes
+open below what it would show; intervals that rest on the likeliest alone, often the least, would
+then be too short. No bench is without such a torque, so that none has no share of its own.
 """
 
 from collections.abc import Sequence
@@ -23,10 +23,8 @@ from equipoise.estimation.torque_by_cause.gauss_markov import (
 )
 from equipoise.model.arrays import Floats, Series1
 
-NONE = Process(1e-9, 30.0)  # N m, s, chosen: a torque that no bench shows
 SIZES = 10.0 ** (np.arange(-30, -13) / 4)  # N m, chosen: 3e-8 to 3e-4, a quarter decade each
 CORRELATIONS = (2.0, 6.0, 20.0, 60.0, 200.0)  # s, chosen: drafts to slow air supply
-STILL = 0.5  # chosen: share of records without any such torque
 DECADES_SD, USUAL = 1.0, 1e-6  # chosen: most benches are within a decade of 1e-6 N m
 COUNTS = 0.01  # chosen: a process of less weight than this, of the greatest, is left out
 
@@ -40,19 +38,14 @@ class Weighed(NamedTuple):
 
 
 def prior_share(process: Process) -> float:
-    """Return how probable a process is before the record is seen."""
-    if process is NONE:
-        return STILL
-    decades = np.log10(SIZES / USUAL)
-    share = np.exp(-0.5 * (decades / DECADES_SD) ** 2)
-    own = np.exp(-0.5 * (np.log10(process.sd / USUAL) / DECADES_SD) ** 2)
-    return float((1 - STILL) * own / (share.sum() * len(CORRELATIONS)))
+    """Return how probable a process is before the record is seen, but for a factor."""
+    return float(np.exp(-0.5 * (np.log10(process.sd / USUAL) / DECADES_SD) ** 2))
 
 
 def weighed(chain: Chain, coarsely: bool = False) -> tuple[Weighed, ...]:
     """Return the processes that the record leaves, with their courses; weights sum to 1."""
     skip = 4 if coarsely else 1
-    processes = (NONE, *(Process(float(s), T) for s in SIZES[::skip] for T in CORRELATIONS[::skip]))
+    processes = [Process(float(s), T) for s in SIZES[::skip] for T in CORRELATIONS[::skip]]
     improbable = np.array([improbability(chain, process) for process in processes])
     share = np.array([prior_share(p) for p in processes])
     share *= np.exp(-0.5 * (improbable - improbable.min()))
