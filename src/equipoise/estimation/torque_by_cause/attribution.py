@@ -34,6 +34,7 @@ from equipoise.estimation.torque_by_cause.by_cause import (
     coordinates_of,
     impulses_of,
     points_at,
+    steps_of,
 )
 from equipoise.estimation.torque_by_cause.closure import closure_of
 from equipoise.estimation.torque_by_cause.posed_record import (
@@ -107,9 +108,8 @@ def torque_by_cause(recording: Recording, testbed: Testbed, estimate: Estimate) 
     by = coordinates_of(fitted, testbed.up, constant)
     chain = chain_of(fitted, prior, by)
     found = weighed(chain)
-    at = mean_course(found)
-    rows = mixed(found, impulses_of(fitted, chain, by, at, edges), at, INTERVAL)
-    closure = closure_of(problem, points_at(fitted, by, at), edges, rows.total)
+    rows = mixed(found, impulses_of(fitted, chain, by, edges), INTERVAL)
+    closure = closure_of(fitted, steps_of(by, mean_course(found)), edges, rows.total)
     there = [k for k in range(len(CAUSES)) if np.any(rows.torque[:, k]) or np.any(rows.variance[:, k])]
     sd, correlation = shown_process(found)
     return TorqueByCause(

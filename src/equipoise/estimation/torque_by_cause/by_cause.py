@@ -154,30 +154,33 @@ class Impulses(NamedTuple):
     slope: Floats  # (K, causes, 3, unknowns of the chain)
 
 
-def impulses_of(
-    fitted: Fitted, chain: Chain, by: Coordinates, at: Floats, begins: Series1
-) -> Impulses:
-    """Return the impulses of all stretches, linear about deviations ``at`` (K, n').
+def impulses_of(fitted: Fitted, chain: Chain, by: Coordinates, begins: Series1) -> Impulses:
+    """Return the impulses of all stretches, linear about the points of a fit.
 
     Intervals begin at ``begins`` (s); the last of these ends the last interval.
     """
     problem, cuts = fitted.problem, posed(fitted.problem).cuts
-    points = points_at(fitted, by, at)
+    points = [unknowns_of(flat) for flat in fitted.at.pieces.points]
     known, start = known_at(problem, points[0]), standing(problem)
     found = [
         impulse_of(problem, known, slice(int(a), int(b) + 1), point, start)
         for a, b, point in zip(cuts.nodes, cuts.nodes[1:], points, strict=False)
     ]
-    slope = np.array([each.slope @ by.slope(k, at[k]) for k, each in enumerate(found)])
+    zero = np.zeros(by.constant.shape[1])
+    slope = np.array([each.slope @ by.slope(k, zero) for k, each in enumerate(found)])
     first = np.searchsorted(problem.line.t[cuts.nodes], begins - SAME)
     out = Impulses(first, np.array([each.value for each in found]), slope)
     inertia = inertia_at(problem, points[0], start)
     for k, changed in enumerate(chain.events):
         if RATE.start in changed:
-            onward = chain.onward[k, RATE]
-            jump = at[k + 1, RATE] - onward @ at[k] - chain.gaps[k, RATE]
-            add_contact(out, k, inertia, jump, onward)
+            add_contact(out, k, inertia, -chain.gaps[k, RATE], chain.onward[k, RATE])
     return out
+
+
+def steps_of(by: Coordinates, mean: Floats) -> Floats:
+    """Return the steps of all stretches in the unknowns of the fit, (K, n), of first order."""
+    zero = np.zeros(by.constant.shape[1])
+    return np.array([by.slope(k, zero) @ each for k, each in enumerate(mean)])
 
 
 def points_at(fitted: Fitted, by: Coordinates, at: Floats) -> list[Unknowns]:
@@ -202,12 +205,12 @@ def add_contact(
     impulses.slope[k, cause.CONTACTS] -= inertia @ rate_onward
 
 
-def rows_of(impulses: Impulses, course: Course, at: Floats, interval: float) -> Rows:
-    """Return mean torques, linear about the deviations ``at`` (K, n) where impulses were taken."""
+def rows_of(impulses: Impulses, course: Course, interval: float) -> Rows:
+    """Return mean torques given all rows."""
     first, n = impulses.first, len(impulses.first) - 1
     torque, variance = np.zeros((2, n, len(cause.CAUSES), 3))
     total_variance = np.zeros((n, 3))
-    values = impulses.value + np.einsum("kcij,kj->kci", impulses.slope, course.mean - at)
+    values = impulses.value + np.einsum("kcij,kj->kci", impulses.slope, course.mean)
     for k in range(n):
         a, b = int(first[k]), int(first[k + 1])
         torque[k] = values[a:b].sum(axis=0)

@@ -20,15 +20,19 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.dynamics.timeline import SAME
 from equipoise.estimation.output_error.problem import Problem, forward_of, posed
-from equipoise.estimation.parameters.fit_parameters import Unknowns
+from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.parameters.fit_parameters import JP, RATE, Unknowns, unknowns_of
+from equipoise.estimation.torque_by_cause.by_cause import moved_point
 from equipoise.estimation.torque_by_cause.stretch_motion import (
     Within,
     followed,
     inertia_at,
     known_at,
 )
-from equipoise.maths.attitude import difference, multiply, to_matrix
+from equipoise.maths.attitude import difference, exponential, multiply, to_matrix
+from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1, Series3, Series4
 from equipoise.model.torque_by_cause import MomentumClosure
 from equipoise.sensors.camera import said_along
@@ -49,18 +53,27 @@ class Motions(NamedTuple):
     """The smoothed motion of all stretches."""
 
     of: list[Within]
-    points: list[Unknowns]
+    first: Unknowns
     begins: Series1  # (K + 1,) s since the record began
 
 
-def motions_of(problem: Problem, points: list[Unknowns]) -> Motions:
-    """Return the motion of all stretches, which begin at these points."""
+def motions_of(fitted: Fitted, steps: Floats) -> Motions:
+    """Return the motion of all stretches, off that of a fit by steps (K, n), of first order."""
+    problem, points = fitted.problem, [unknowns_of(flat) for flat in fitted.at.pieces.points]
     nodes, known = posed(problem).cuts.nodes, known_at(problem, points[0])
     found = [
-        followed(problem, known, slice(int(a), int(b) + 1), point)
-        for a, b, point in zip(nodes, nodes[1:], points, strict=False)
+        off_by(followed(problem, known, slice(int(a), int(b) + 1), point), step)
+        for a, b, point, step in zip(nodes, nodes[1:], points, steps, strict=False)
     ]
-    return Motions(found, points, problem.line.t[nodes] - problem.line.t[0])
+    return Motions(found, moved_point(points[0], steps[0], problem),
+                   problem.line.t[nodes] - problem.line.t[0])  # fmt: skip
+
+
+def off_by(at: Within, step: Floats) -> Within:
+    """Return a motion whose unknowns are off by a step, of first order."""
+    motion, own = at.motion, step[: at.motion.rate_by.shape[2]]
+    q = multiply(motion.q, exponential(motion.turn_by @ own))
+    return at._replace(motion=motion._replace(q=q, rate=motion.rate + motion.rate_by @ own))
 
 
 def rows_within(motions: Motions, t: Series1) -> list[slice]:
@@ -92,7 +105,7 @@ def rates(motions: Motions, t: Series1) -> Series3:
 
 def by_gyro(problem: Problem, motions: Motions, edges: Series1) -> RateErrors:
     """Return the rates that the gyro shows around times ``edges`` (s)."""
-    line, measured, point = problem.line, problem.observed, motions.points[0]
+    line, measured, point = problem.line, problem.observed, motions.first
     t = moments(problem, line.rate_node, line.rate_share)
     matrix = np.array(gyro_matrix(point.sensor), dtype=np.float64).reshape(3, 3)
     rows = np.linalg.solve(matrix, (measured.rate - point.bias).T).T - rates(motions, t)
@@ -109,7 +122,7 @@ def by_camera(problem: Problem, motions: Motions, edges: Series1) -> RateErrors:
     line, measured = problem.line, problem.observed
     t = moments(problem, line.attitude_node, line.attitude_share)
     q, said = attitudes(motions, t), np.empty((len(t), 4))
-    said_along(q, forward_of(problem.testbed.up), motions.points[0].sensor, said)
+    said_along(q, forward_of(problem.testbed.up), motions.first.sensor, said)
     off = np.einsum("nij,nj->ni", to_matrix(q), difference(measured.attitude, said))
     first, last = around(t, edges, CAMERA_WINDOW)
     error, variance = np.full((len(edges), 3), np.nan), np.full(len(edges), np.nan)
@@ -137,17 +150,17 @@ def around(t: Series1, edges: Series1, window: float) -> tuple[Floats, Floats]:
     return np.searchsorted(t, edges - reach), np.searchsorted(t, edges + reach)
 
 
-def closure_of(
-    problem: Problem, points: list[Unknowns], edges: Series1, total: Series3
-) -> MomentumClosure:
-    """Return what the torque of all causes (n, 3) N m leaves between times ``edges`` (s)."""
-    motions, since = motions_of(problem, points), edges - problem.line.t[0]
-    gyro = len(problem.observed.rate) > 0
+def closure_of(fitted: Fitted, steps: Floats, edges: Series1, total: Series3) -> MomentumClosure:
+    """Return what the torque of all causes (n, 3) N m leaves between times ``edges`` (s).
+
+    The motion is that of a fit, off by ``steps`` (K, n) of its unknowns.
+    """
+    problem, motions = fitted.problem, motions_of(fitted, steps)
+    since, gyro = edges - problem.line.t[0], len(problem.observed.rate) > 0
     shown = (by_gyro if gyro else by_camera)(problem, motions, since)
-    start = problem.line.known[0, KNOWN_D : KNOWN_D + len(problem.maps.momentum)]
-    inertia = inertia_at(problem, points[0], start)
-    first = np.searchsorted(motions.begins, since - 1e-9)
-    w = np.array([rate_at_cut(motions, int(k)) for k in first]) + shown.error
+    inertia = inertia_of(fitted, steps[0])
+    first = np.searchsorted(motions.begins, since - SAME)
+    w = np.array([rate_at_cut(fitted, motions, steps, int(k)) for k in first]) + shown.error
     interval = np.diff(edges)[:, None]
     own = np.array([integral_of(at, inertia) for at in motions.of])
     turned = np.array([own[a:b].sum(axis=0) for a, b in zip(first, first[1:], strict=False)])
@@ -157,9 +170,18 @@ def closure_of(
     return MomentumClosure(left, sd)
 
 
-def rate_at_cut(motions: Motions, k: int) -> Floats:
+def inertia_of(fitted: Fitted, step: Floats) -> Matrix3:
+    """Return the inertia about P after a step, masses as the record begins; any body, possible or not."""
+    problem, first = fitted.problem, unknowns_of(fitted.at.pieces.points[0])
+    start = problem.line.known[0, KNOWN_D : KNOWN_D + len(problem.maps.momentum)]
+    return inertia_at(problem, first, start) + unpack_symmetric(step[JP])
+
+
+def rate_at_cut(fitted: Fitted, motions: Motions, steps: Floats, k: int) -> Floats:
     """Return the rate (rad/s) with which stretch k begins, or the last one ends."""
-    return motions.points[k].w0 if k < len(motions.of) else motions.of[-1].motion.rate[-1]
+    if k == len(motions.of):
+        return motions.of[-1].motion.rate[-1]
+    return unknowns_of(fitted.at.pieces.points[k]).w0 + steps[k, RATE]
 
 
 def integral_of(at: Within, inertia: Matrix3) -> Floats:

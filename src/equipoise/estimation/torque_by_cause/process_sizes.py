@@ -62,9 +62,9 @@ def mean_course(found: Sequence[Weighed]) -> Floats:
     return np.array(sum(each.weight * each.course.mean for each in found))
 
 
-def mixed(found: Sequence[Weighed], impulses: Impulses, at: Floats, interval: float) -> Rows:
+def mixed(found: Sequence[Weighed], impulses: Impulses, interval: float) -> Rows:
     """Return rows with the mean and the variance of the mixture."""
-    rows = [rows_of(impulses, each.course, at, interval) for each in found]
+    rows = [rows_of(impulses, each.course, interval) for each in found]
     weight = np.array([each.weight for each in found])
 
     def both(values: Floats, variances: Floats) -> tuple[Floats, Floats]:
