@@ -30,7 +30,6 @@ DURATION = 60.0  # s
 SEED = 100  # of the first platform
 LEAST_SD = 5e-9  # N m, chosen: the integrals of the truth err by a tenth of it
 BAND = (0.92, 0.98)  # of components within their 95 % intervals
-FEWEST = 5  # platforms, below which a share says nothing
 Array = NDArray[np.float64]
 
 
@@ -158,7 +157,8 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         *(closure_rows(real_torque()) if RECORD.exists() else ()),
     ]
     notes = [
-        f"{kind.name}: total within in {share(np.concatenate(own)) / PERCENT:.1f} % of {len(own)} records."
+        f"{kind.name}: the total is within in {share(np.concatenate(own)) / PERCENT:.1f} % of the "
+        f"seconds of {len(own)} records."
         for kind in KINDS
         if (own := [run.total for run in runs if run.kind == kind.name])
     ]

@@ -13,6 +13,7 @@ from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
 from equipoise.dynamics.regressor import CONSTANT, DRIFT, QUADRATIC, SWIRL, THERMAL, VISCOUS
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
+from equipoise.maths.straight_lines import read_at
 from equipoise.model import torque_by_cause as cause
 from equipoise.model.arrays import Floats, Matrix3, Series1, Series3, Vector3
 from equipoise.model.recording import Recording
@@ -52,8 +53,7 @@ class TrueTorqueBench(SimulatedBench):
         t, q, w = np.concatenate(self._t), np.vstack(self._q), np.vstack(self._w)
         torque = self._torques(t, q, w, np.vstack(self._air))
         running = running_integral(t, torque)
-        found = np.array([[np.interp(edges, t, column) for column in each.T] for each in running])
-        impulse = np.moveaxis(np.diff(found, axis=2), 2, 0)
+        impulse = np.stack([np.diff(read_at(edges, t, each), axis=0) for each in running], axis=1)
         moves = self._balance(t, w, edges) - impulse.sum(axis=1)
         impulse[:, cause.MOVES] = moves
         return impulse / np.diff(edges)[:, None, None]
@@ -63,7 +63,7 @@ class TrueTorqueBench(SimulatedBench):
         inertia = self._inertia()
         turned = running_integral(t, np.cross(w, w @ inertia)[None])[0]
         whole = w @ inertia + turned
-        return np.diff(np.column_stack([np.interp(edges, t, c) for c in whole.T]), axis=0)
+        return np.diff(read_at(edges, t, whole), axis=0)
 
     def _inertia(self) -> Matrix3:
         """Return the inertia about P with the masses as they stood at first, kg m^2."""

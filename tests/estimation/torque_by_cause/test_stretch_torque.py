@@ -59,7 +59,10 @@ def test_sum_of_impulses_is_the_change_of_the_first_inertia_s_momentum(posed_cas
     known, nodes = known_at(problem, point), posed(problem).cuts.nodes
     stretch = slice(int(nodes[k]), int(nodes[k + 1]) + 1)
     found = impulse_of(problem, known, stretch, point, standing(problem))
-    at, inertia = followed(problem, known, stretch, point), inertia_at(problem, point, standing(problem))
+    at, inertia = (
+        followed(problem, known, stretch, point),
+        inertia_at(problem, point, standing(problem)),
+    )
     w = at.motion.rate
     turned = at.weights @ np.cross(w, w @ inertia)
     change = inertia @ (w[-1] - point.w0) + turned

@@ -29,7 +29,7 @@ def ledger(
 ) -> int:
     """Divide the disturbance torque on a platform among its causes, second by second.
 
-    Causes are gravity, elastic sag, drift, warmth, moves, air and contacts, each with its 95 % band.
+    Causes are gravity, elastic sag, drift, warmth, moves, air and contacts, with 95 % bands.
     The platform is identified first; its terms decide which causes are distinguished. Subtract the
     total from your own record. Exit code 1: the estimate is not usable, or the causes do not close
     the momentum balance.

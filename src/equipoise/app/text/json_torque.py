@@ -1,8 +1,18 @@
 """The torque on a platform by cause as a JSON document, SI units, body axes."""
 
 from equipoise.app.text.json_document import REASONS
-from equipoise.app.text.json_shape import MATRIX, NUMBER, TEXT, VECTOR, Kind, by_name, document, fields, shape
-from equipoise.app.text.json_shape import Key
+from equipoise.app.text.json_shape import (
+    MATRIX,
+    NUMBER,
+    TEXT,
+    VECTOR,
+    Key,
+    Kind,
+    by_name,
+    document,
+    fields,
+    shape,
+)
 
 BY_CAUSE = by_name(MATRIX)
 

@@ -1,11 +1,12 @@
 """The torque on a platform second by second, divided among its causes, each with its 95 % band.
 
-    J w|_(t+1) - J w|_t + int w x J w dt = sum of the impulses of all causes,    J: masses as at first
+    J w|_(t+1) - J w|_t + int w x J w dt = sum of impulses of all causes,    J: masses as at first
 
 What a term explains is its column of the one regressor times its coefficient, along the smoothed
-motion. What no term explains is a Gauss-Markov torque (``gauss_markov``), whose size and correlation
-time the record weighs (``process_sizes``). All unknowns of the fit stand beside it: intervals count
-how com, inertia, terms, attitude, rate and stops are known, and how they trade for each other.
+motion. What no term explains is a Gauss-Markov torque (``gauss_markov``); the record weighs its
+size and correlation time (``process_sizes``). All unknowns of the fit stand beside it: intervals
+count how com, inertia, terms, attitude, rate and stops are known, and how they trade for each
+other.
 
 Priors are those of the fit: J and com are as the testbed says where the estimate does not see them
 all, or as an estimate of another record says. A term that the testbed does not declare is as large
@@ -64,7 +65,8 @@ ROUNDS = 3  # chosen: of the linear model about its own answer; more change noth
 def edges_of(recording: Recording) -> Series1:
     """Return where intervals begin, and where the last whole one ends, s."""
     first, last = recording.span
-    return first + INTERVAL * np.arange(int((last - first) / INTERVAL + 1e-9) + 1)
+    count = int((last - first + SAME) / INTERVAL)
+    return first + INTERVAL * np.arange(count + 1, dtype=np.float64)
 
 
 def prior_for(
@@ -110,7 +112,9 @@ def torque_by_cause(recording: Recording, testbed: Testbed, estimate: Estimate) 
     found = weighed(chain)
     rows = mixed(found, impulses_of(fitted, chain, by, edges), INTERVAL)
     closure = closure_of(fitted, steps_of(by, mean_course(found)), edges, rows.total)
-    there = [k for k in range(len(CAUSES)) if np.any(rows.torque[:, k]) or np.any(rows.variance[:, k])]
+    there = [
+        k for k in range(len(CAUSES)) if np.any(rows.torque[:, k]) or np.any(rows.variance[:, k])
+    ]
     sd, correlation = shown_process(found)
     return TorqueByCause(
         edges[:-1], INTERVAL, tuple(CAUSES[k] for k in there), rows.torque[:, there],

@@ -52,7 +52,9 @@ class Rows(NamedTuple):
 class Coordinates(NamedTuple):
     """How the unknowns x of a fit go with those of the chain, z (``gauss_markov``)."""
 
-    constant: Floats  # (n, n') S: the torque that an estimate calls constant acts as the carrier does
+    constant: (
+        Floats  # (n, n') S: the torque that an estimate calls constant acts as the carrier does
+    )
     scale: Floats  # (n',) l
     carrier: Ints  # (3,)
     torque: Series3  # (K, 3) N m, of the points
@@ -78,7 +80,9 @@ def coordinates_of(fitted: Fitted, up: Vector3, constant: bool) -> Coordinates:
     S = np.hstack([np.eye(n), np.eye(n)[:, carrier if constant else []]])
     first = TORQUE + CONSTANT
     torque = fitted.at.pieces.points[:, first : first + 3]
-    return Coordinates(S, scale_row(fitted.problem, fitted.point, up) @ S, np.array(carrier), torque)
+    return Coordinates(
+        S, scale_row(fitted.problem, fitted.point, up) @ S, np.array(carrier), torque
+    )
 
 
 def chain_of(fitted: Fitted, prior: Prior, by: Coordinates) -> Chain:
@@ -222,12 +226,12 @@ def rows_of(impulses: Impulses, course: Course, interval: float) -> Rows:
 
 def spread_of(slope: Floats, course: Course, a: int) -> tuple[Floats, Vector3]:
     """Return the variance of impulses of neighbouring stretches from ``a`` on, and of their sum."""
-    L, parts = slope[-1], list[tuple[Floats, Square]]()
+    onto, parts = slope[-1], list[tuple[Floats, Square]]()
     for j in range(len(slope) - 2, -1, -1):
-        parts.append((L, course.fresh[a + j]))
-        L = slope[j] + L @ course.onward[a + j]
-    parts.append((L, course.covariance[a]))
+        parts.append((onto, course.fresh[a + j]))
+        onto = slope[j] + onto @ course.onward[a + j]
+    parts.append((onto, course.covariance[a]))
     each = sum((np.einsum("cij,jl,cil->ci", D, C, D, optimize=True) for D, C in parts),
-               np.zeros(L.shape[:2]))  # fmt: skip
+               np.zeros(onto.shape[:2]))  # fmt: skip
     whole = [(D.sum(axis=0), C) for D, C in parts]
     return each, sum((np.einsum("ij,jl,il->i", D, C, D) for D, C in whole), np.zeros(3))

@@ -1,4 +1,4 @@
-"""Whether the torque of all causes closes the balance of angular momentum, by the sensors' own rows.
+"""Whether the torque of all causes closes the momentum balance, by the sensors' own rows.
 
     left = [ J (w~_(k+1) - w~_k) + int w x (J w + h) dt + h_(k+1) - h_k - int tau dt ] / interval
            - total,        J: masses as the record begins;  h, tau: of wheels and known torque
@@ -14,6 +14,7 @@ an upper bound, as the smoothed torque follows the same rows. An interval withou
 ends has no closure: NaN.
 """
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -33,7 +34,8 @@ from equipoise.estimation.torque_by_cause.stretch_motion import (
 )
 from equipoise.maths.attitude import difference, exponential, multiply, to_matrix
 from equipoise.maths.linalg import unpack_symmetric
-from equipoise.model.arrays import Floats, Matrix3, Series1, Series3, Series4
+from equipoise.maths.straight_lines import read_at
+from equipoise.model.arrays import Floats, Ints, Matrix3, Series1, Series3, Series4
 from equipoise.model.torque_by_cause import MomentumClosure
 from equipoise.sensors.camera import said_along
 from equipoise.sensors.gyro import gyro_matrix
@@ -96,11 +98,7 @@ def attitudes(motions: Motions, t: Series1) -> Series4:
 def rates(motions: Motions, t: Series1) -> Series3:
     """Return the smoothed rates (rad/s) at times (s, since the record began)."""
     pieces = zip(motions.of, rows_within(motions, t), strict=True)
-    columns = [
-        np.column_stack([np.interp(t[rows], at.t, w) for w in at.motion.rate.T])
-        for at, rows in pieces
-    ]
-    return np.vstack(columns)
+    return np.vstack([read_at(t[rows], at.t, at.motion.rate) for at, rows in pieces])
 
 
 def by_gyro(problem: Problem, motions: Motions, edges: Series1) -> RateErrors:
@@ -136,14 +134,14 @@ def by_camera(problem: Problem, motions: Motions, edges: Series1) -> RateErrors:
     return RateErrors(error, variance)
 
 
-def moments(problem: Problem, node: Floats, share: Floats) -> Series1:
+def moments(problem: Problem, node: Ints, share: Floats) -> Series1:
     """Return when rows were measured, s since the record began."""
     t = problem.line.t
     length = np.append(np.diff(t), 0.0)
     return t[node] + share * length[node] - t[0]
 
 
-def around(t: Series1, edges: Series1, window: float) -> tuple[Floats, Floats]:
+def around(t: Series1, edges: Series1, window: float) -> tuple[Ints, Ints]:
     """Return the first row within a window (s) around each time, and the one behind the last."""
     period = float(np.median(np.diff(t))) if len(t) > 1 else window
     reach = max(window, FEWEST * period)
@@ -159,11 +157,11 @@ def closure_of(fitted: Fitted, steps: Floats, edges: Series1, total: Series3) ->
     since, gyro = edges - problem.line.t[0], len(problem.observed.rate) > 0
     shown = (by_gyro if gyro else by_camera)(problem, motions, since)
     inertia = inertia_of(fitted, steps[0])
-    first = np.searchsorted(motions.begins, since - SAME)
+    first: Ints = np.searchsorted(motions.begins, since - SAME)
     w = np.array([rate_at_cut(fitted, motions, steps, int(k)) for k in first]) + shown.error
     interval = np.diff(edges)[:, None]
     own = np.array([integral_of(at, inertia) for at in motions.of])
-    turned = np.array([own[a:b].sum(axis=0) for a, b in zip(first, first[1:], strict=False)])
+    turned = np.array([own[a:b].sum(axis=0) for a, b in pairwise(first.tolist())])
     left = (np.diff(w @ inertia, axis=0) + turned) / interval - total
     both = shown.variance[1:] + shown.variance[:-1]
     sd = np.sqrt(both[:, None] * np.diag(inertia @ inertia)) / interval
@@ -171,7 +169,7 @@ def closure_of(fitted: Fitted, steps: Floats, edges: Series1, total: Series3) ->
 
 
 def inertia_of(fitted: Fitted, step: Floats) -> Matrix3:
-    """Return the inertia about P after a step, masses as the record begins; any body, possible or not."""
+    """Return the inertia about P after a step, masses as at first; of a body possible or not."""
     problem, first = fitted.problem, unknowns_of(fitted.at.pieces.points[0])
     start = problem.line.known[0, KNOWN_D : KNOWN_D + len(problem.maps.momentum)]
     return inertia_at(problem, first, start) + unpack_symmetric(step[JP])

@@ -1,4 +1,4 @@
-"""The unmodelled torque as a Gauss-Markov process beside all other unknowns: a fixed-interval smoother.
+"""The unmodelled torque as a Gauss-Markov process beside all other unknowns, smoothed.
 
 Stretch k of a record has unknowns x_k at its beginning, d_k their deviation from the point about
 which the motion is linear, and the local model A_k, b_k of its own rows (``segments``). Onward
@@ -7,7 +7,7 @@ which the motion is linear, and the local model A_k, b_k of its own rows (``segm
 
     a = exp(-dt / T),    Q = s^2 (1 - a^2)      of the torque's three coordinates, s its sd
     o                    gap from the end of the motion of k to the point of k + 1; a x_k - x_(k+1)
-                         of the torque. What an event changes has a wide Q instead.
+                         of the torque. What an event changes has a wide Q beside.
 
 Backwards, with M = P_uu + Q^-1, the information and score of all rows from k on follow,
 
@@ -22,8 +22,8 @@ fewer sd (``drift_scale`` says the same of jumps of com). The process is therefo
 
     nu = tau / c,     c = 1 + l^T d,     l = d(ln tr J across)/dx
 
-and x = (I + E tau_k l^T) z of the coordinates z in which the torque's three are nu: rows say nothing
-of c then but by what is known to change.
+and x = (I + E tau_k l^T) z of the coordinates z in which the torque's three are nu: rows say
+nothing of c then but by what is known to change.
 
 Cannot see the torque from a term that moves alike: a constant torque from com across gravity where
 the platform stays level. The covariance says so.
@@ -33,8 +33,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.estimation.events.record_model import log_det
 from equipoise.maths.linalg import inverse_spd, symmetrise
 from equipoise.model.arrays import Floats, Ints, Series, Square
+
 
 class Chain(NamedTuple):
     """The stretches of a record, linear about a point each."""
@@ -107,40 +109,32 @@ def with_torque(chain: Chain, process: Process) -> tuple[Square, Floats]:
     return information, score
 
 
-def backward(
-    chain: Chain, process: Process
-) -> tuple[Square, Floats, float, Steps]:
+def backward(chain: Chain, process: Process) -> tuple[Square, Floats, float, Steps]:
     """Return P, p of the first stretch with its priors, -2 ln p but for a constant, and the steps.
 
     LinAlgError where the information is not positive definite.
     """
     kept = Steps([], [], [])
-    P, p, total = chain.normal[-1].copy(), chain.descent[-1].copy(), 0.0
+    info, score, total = chain.normal[-1].copy(), chain.descent[-1].copy(), 0.0
     for k in range(len(chain.onward) - 1, -1, -1):
         at = step_at(chain, k, process)
-        P_u, p_u = P[at.free], p[at.free]
+        P_u, p_u = info[at.free], score[at.free]
         M = P_u[:, at.free] + np.diag(at.weight)
         spread = inverse_spd(M)
         total -= float(p_u @ spread @ p_u) + log_det(spread) + float(np.sum(np.log(at.weight)))
-        P, p = P - P_u.T @ spread @ P_u, p - P_u.T @ (spread @ p_u)
-        moved = P @ at.offset
-        total += float(at.offset @ moved) - 2 * float(p @ at.offset)
+        info, score = info - P_u.T @ spread @ P_u, score - P_u.T @ (spread @ p_u)
+        moved = info @ at.offset
+        total += float(at.offset @ moved) - 2 * float(score @ at.offset)
         kept.gain.append(spread @ P_u @ at.F)
         kept.firm.append(spread @ (p_u - P_u @ at.offset))
         kept.spread.append(spread)
-        P = symmetrise(chain.normal[k] + at.F.T @ P @ at.F)
-        p = chain.descent[k] + at.F.T @ (p - moved)
-    information, score = with_torque(chain, process)
-    P, p = P + information, p + score
-    mean = inverse_spd(P) @ p
-    total += float(np.sum(chain.torque[0] ** 2)) / process.sd**2 - float(mean @ p)
-    return P, p, total - log_det(inverse_spd(P)) + 6 * float(np.log(process.sd)), kept
-
-
-def log_det(matrix: Square) -> float:
-    """Return ln det of a positive definite matrix in any units."""
-    unit = 1 / np.sqrt(np.diag(matrix))
-    return float(np.linalg.slogdet(matrix * np.outer(unit, unit))[1] - 2 * np.sum(np.log(unit)))
+        info = symmetrise(chain.normal[k] + at.F.T @ info @ at.F)
+        score = chain.descent[k] + at.F.T @ (score - moved)
+    prior, pull = with_torque(chain, process)
+    info, score = info + prior, score + pull
+    mean = inverse_spd(info) @ score
+    total += float(np.sum(chain.torque[0] ** 2)) / process.sd**2 - float(mean @ score)
+    return info, score, total - log_det(inverse_spd(info)) + 6 * float(np.log(process.sd)), kept
 
 
 def improbability(chain: Chain, process: Process) -> float:

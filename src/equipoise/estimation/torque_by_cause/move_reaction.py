@@ -41,7 +41,8 @@ def moved_momentum(
     d, wheels = at.known[rows, KNOWN_D : KNOWN_D + travel.shape[1]], at.known[rows, :3]
     h = travel @ maps.momentum
     inertia = point.body(problem.mass).inertia_P + bent(maps, d, np.zeros_like(start))
-    w = np.linalg.solve(inertia, (at.motion.momentum[rows] - wheels - h)[..., None])[..., 0]
+    left: Floats = at.motion.momentum[rows] - wheels - h
+    w = np.linalg.solve(inertia, left[..., None])[..., 0].astype(np.float64, copy=False)
     return w, np.einsum("nij,nj->ni", bent(maps, d, start), w) + h
 
 

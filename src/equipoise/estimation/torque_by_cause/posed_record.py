@@ -1,9 +1,9 @@
 """A record as stretches of a second, each linear about a state of its own.
 
 The terms, sensor errors and events are the estimate's; the sensors are as noisy as the rows of the
-estimate showed them. Stretches begin as measured at first (multiple shooting, ``multiple_shooting``):
-no motion is lost, whatever pushed the platform. ``gauss_markov`` joins them, and they are taken about
-the joined motion again. The unmodelled torque stands in the coordinates ``constant``.
+estimate showed them. Stretches begin as measured at first (``multiple_shooting``): no motion is
+lost, whatever pushed the platform. ``gauss_markov`` joins them, and they are taken about the joined
+motion again. The unmodelled torque stands in the coordinates ``constant``.
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,6 @@
-"""Size and correlation time of the unmodelled torque, weighed by the record: no single best is taken.
+"""Size and correlation time of the unmodelled torque, weighed by the record.
+
+No single best is taken:
 
     weight_j ~ p(rows | s_j, T_j) prior_j,     mean = sum weight_j mean_j,
     variance = sum weight_j (variance_j + (mean_j - mean)^2)
@@ -21,7 +23,7 @@ from equipoise.estimation.torque_by_cause.gauss_markov import (
     improbability,
     smoothed,
 )
-from equipoise.model.arrays import Floats, Series1
+from equipoise.model.arrays import Floats
 
 SIZES = 10.0 ** (np.arange(-30, -13) / 4)  # N m, chosen: 3e-8 to 3e-4, a quarter decade each
 CORRELATIONS = (2.0, 6.0, 20.0, 60.0, 200.0)  # s, chosen: drafts to slow air supply
@@ -52,8 +54,7 @@ def weighed(chain: Chain, coarsely: bool = False) -> tuple[Weighed, ...]:
     kept = np.flatnonzero(share >= COUNTS * share.max())
     total = float(share[kept].sum())
     return tuple(
-        Weighed(processes[k], float(share[k]) / total, smoothed(chain, processes[k]))
-        for k in kept
+        Weighed(processes[k], float(share[k]) / total, smoothed(chain, processes[k])) for k in kept
     )
 
 
@@ -71,7 +72,9 @@ def mixed(found: Sequence[Weighed], impulses: Impulses, interval: float) -> Rows
         mean = np.tensordot(weight, values, 1)
         return mean, np.tensordot(weight, variances + (values - mean) ** 2, 1)
 
-    torque, variance = both(np.array([r.torque for r in rows]), np.array([r.variance for r in rows]))
+    torque, variance = both(
+        np.array([r.torque for r in rows]), np.array([r.variance for r in rows])
+    )
     total, whole = both(np.array([r.total for r in rows]),
                         np.array([r.total_variance for r in rows]))  # fmt: skip
     return Rows(torque, variance, total, whole)

@@ -66,7 +66,8 @@ def travel_of(problem: Problem, known: Floats, i: int) -> Floats:
     t = problem.line.t
     if i < 0:
         return np.zeros(known.shape[1] - KNOWN_D)
-    return (known[i + 1] - known[i])[KNOWN_D:] / (t[i + 1] - t[i])
+    change: Floats = (known[i + 1] - known[i]) / float(t[i + 1] - t[i])
+    return change[KNOWN_D:]
 
 
 def inertia_at(problem: Problem, point: Unknowns, d: Floats) -> Matrix3:
@@ -103,7 +104,8 @@ def rates_taken_over(problem: Problem, point: Unknowns, known: Floats, change: F
     k, maps = len(problem.maps.momentum), problem.maps
     owners = [*range(k), *(int(owner) for owner, _ in problem.errors.owner)]
     h = change[:, None] * maps.momentum[owners] if owners else np.zeros((0, 3))
-    return np.linalg.solve(inertia_at(problem, point, known[KNOWN_D : KNOWN_D + k]), h.T)
+    inertia = inertia_at(problem, point, known[KNOWN_D : KNOWN_D + k])
+    return np.linalg.solve(inertia, h.T).astype(np.float64, copy=False)
 
 
 def drift_columns(problem: Problem) -> list[tuple[int, int]]:

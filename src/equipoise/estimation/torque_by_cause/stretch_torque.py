@@ -16,7 +16,6 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.dynamics.regressor import (
-    CONSTANT,
     DRIFT,
     MOMENT,
     N_TORQUES,

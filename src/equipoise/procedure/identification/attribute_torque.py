@@ -12,9 +12,7 @@ FEWEST = 4  # rows of a sensor
 SHORTEST = 3.0  # s, chosen: two intervals and what lies around them
 
 
-def attribute_torque(
-    recording: Recording, testbed: Testbed, estimate: Estimate
-) -> TorqueByCause:
+def attribute_torque(recording: Recording, testbed: Testbed, estimate: Estimate) -> TorqueByCause:
     """Return the torque of each cause, second by second, without the recording's odd rows.
 
     Raises InputError for an estimate without inertia and centre of mass, and for a recording of
