@@ -8,6 +8,7 @@ the propagator's sensitivities have a part in it.
 """
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
 from equipoise.dynamics.regressor import CONSTANT, DRIFT, QUADRATIC, SWIRL, THERMAL, VISCOUS
@@ -52,8 +53,7 @@ class TrueTorqueBench(SimulatedBench):
         """
         t, q, w = np.concatenate(self._t), np.vstack(self._q), np.vstack(self._w)
         torque = self._torques(t, q, w, np.vstack(self._air))
-        running = running_integral(t, torque)
-        impulse = np.stack([np.diff(read_at(edges, t, each), axis=0) for each in running], axis=1)
+        impulse = np.stack([integrals(t, each, edges) for each in torque], axis=1)
         moves = self._balance(t, w, edges) - impulse.sum(axis=1)
         impulse[:, cause.MOVES] = moves
         return impulse / np.diff(edges)[:, None, None]
@@ -61,9 +61,8 @@ class TrueTorqueBench(SimulatedBench):
     def _balance(self, t: Series1, w: Series3, edges: Series1) -> Series3:
         """Return the change of J w over each interval, with int w x J w, N m s."""
         inertia = self._inertia()
-        turned = running_integral(t, np.cross(w, w @ inertia)[None])[0]
-        whole = w @ inertia + turned
-        return np.diff(read_at(edges, t, whole), axis=0)
+        change = np.diff(read_at(edges, t, w @ inertia), axis=0)
+        return change + integrals(t, np.cross(w, w @ inertia), edges)
 
     def _inertia(self) -> Matrix3:
         """Return the inertia about P with the masses as they stood at first, kg m^2."""
@@ -91,8 +90,7 @@ class TrueTorqueBench(SimulatedBench):
         return found
 
 
-def running_integral(t: Series1, values: Floats) -> Floats:
-    """Return the integral of lines from the first time on, (..., n, 3)."""
-    parts = 0.5 * (values[..., 1:, :] + values[..., :-1, :]) * np.diff(t)[:, None]
-    start = np.zeros_like(values[..., :1, :])
-    return np.concatenate([start, np.cumsum(parts, axis=-2)], axis=-2)
+def integrals(t: Series1, values: Series3, edges: Series1) -> Series3:
+    """Return the integrals of a smooth series between neighbouring edges (s)."""
+    running = CubicSpline(t, values).antiderivative()(edges)
+    return np.diff(np.asarray(running, dtype=np.float64), axis=0)

@@ -14,7 +14,8 @@ from equipoise.procedure.identification.attribute_torque import attribute_torque
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.simulation.carried_out import recorded
 from equipoise.study.true_torque import TrueTorqueBench
-from verification.torque_by_cause import KINDS, testbed_of
+from verification.torque_by_cause import KINDS
+from verification.torque_by_cause import testbed_of as table_of
 
 AIR = KINDS[0]
 
@@ -22,7 +23,7 @@ AIR = KINDS[0]
 @pytest.fixture(scope="module")
 def found():
     """Three quarters of a minute with two moves: bench, recording, testbed, estimate."""
-    testbed = testbed_of(AIR)
+    testbed = table_of(AIR)
     bench = TrueTorqueBench(testbed, 108)
     recording = recorded(bench, 45.0, AIR.moves)
     *_, last = identify(recording, testbed, IdentifyOptions("trajectory"))

@@ -27,7 +27,7 @@ from equipoise.model.arrays import Floats
 
 SIZES = 10.0 ** (np.arange(-30, -13) / 4)  # N m, chosen: 3e-8 to 3e-4, a quarter decade each
 CORRELATIONS = (2.0, 6.0, 20.0, 60.0, 200.0)  # s, chosen: drafts to slow air supply
-DECADES_SD, USUAL = 1.0, 1e-6  # chosen: most benches are within a decade of 1e-6 N m
+DECADES_SD, USUAL = 1.0, 3e-6  # chosen: most benches have 1e-6 to 1e-5 N m
 COUNTS = 0.01  # chosen: a process of less weight than this, of the greatest, is left out
 
 
