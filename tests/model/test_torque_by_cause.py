@@ -13,7 +13,8 @@ def made(left, unmodelled=0.0):
     closure = MomentumClosure(left, np.ones_like(left))
     n = len(left)
     return TorqueByCause(
-        np.arange(float(n)), 1.0, ("gravity", "air"), np.tile([[[3.0, 0, 0], [4.0, 0, 0]]], (n, 1, 1)),
+        np.arange(float(n)), 1.0, ("gravity", "air"),
+        np.tile([[[3.0, 0, 0], [4.0, 0, 0]]], (n, 1, 1)),
         np.ones((n, 2, 3)), np.ones((n, 3)), np.ones((n, 3)), unmodelled, 20.0, closure,
     )  # fmt: skip
 

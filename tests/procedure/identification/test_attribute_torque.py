@@ -85,3 +85,12 @@ def test_a_recording_of_two_seconds_is_refused(found):
     _, recording, testbed, estimate = found
     with pytest.raises(InputError, match=r"at least 3 s"):
         attribute_torque(window(recording, 0.0, 2.0), testbed, estimate)
+
+
+def test_an_estimate_of_an_impossible_body_is_refused(found):
+    _, recording, testbed, estimate = found
+    k = estimate.index("inertia_P_zz")
+    changed = list(estimate.parameters)
+    changed[k] = replace(changed[k], value=10.0)
+    with pytest.raises(InputError, match="no body can have"):
+        attribute_torque(recording, testbed, replace(estimate, parameters=tuple(changed)))
