@@ -154,14 +154,15 @@ def closure_of(fitted: Fitted, steps: Floats, edges: Series1, total: Series3) ->
     The motion is that of a fit, off by ``steps`` (K, n) of its unknowns.
     """
     problem, motions = fitted.problem, motions_of(fitted, steps)
-    since, gyro = edges - problem.line.t[0], len(problem.observed.rate) > 0
+    since: Series1 = edges - float(problem.line.t[0])
+    gyro = len(problem.observed.rate) > 0
     shown = (by_gyro if gyro else by_camera)(problem, motions, since)
     inertia = inertia_of(fitted, steps[0])
-    first: Ints = np.searchsorted(motions.begins, since - SAME)
-    w = np.array([rate_at_cut(fitted, motions, steps, int(k)) for k in first]) + shown.error
+    first: list[int] = np.searchsorted(motions.begins, since - SAME).tolist()
+    w = np.array([rate_at_cut(fitted, motions, steps, k) for k in first]) + shown.error
     interval = np.diff(edges)[:, None]
     own = np.array([integral_of(at, inertia) for at in motions.of])
-    turned = np.array([own[a:b].sum(axis=0) for a, b in pairwise(first.tolist())])
+    turned = np.array([own[a:b].sum(axis=0) for a, b in pairwise(first)])
     left = (np.diff(w @ inertia, axis=0) + turned) / interval - total
     both = shown.variance[1:] + shown.variance[:-1]
     sd = np.sqrt(both[:, None] * np.diag(inertia @ inertia)) / interval

@@ -66,8 +66,8 @@ def travel_of(problem: Problem, known: Floats, i: int) -> Floats:
     t = problem.line.t
     if i < 0:
         return np.zeros(known.shape[1] - KNOWN_D)
-    change: Floats = (known[i + 1] - known[i]) / float(t[i + 1] - t[i])
-    return change[KNOWN_D:]
+    change: Floats = np.diff(known[i : i + 2, KNOWN_D:], axis=0).reshape(-1)
+    return change / float(t[i + 1] - t[i])
 
 
 def inertia_at(problem: Problem, point: Unknowns, d: Floats) -> Matrix3:
