@@ -65,7 +65,7 @@ def travel_of(problem: Problem, known: Floats, i: int) -> Floats:
     """Return how fast displacements and responses change in step i; at rest before the record."""
     t = problem.line.t
     if i < 0:
-        return np.zeros(known.shape[1] - KNOWN_D)
+        return 0.0 * known[0, KNOWN_D:]
     change: Floats = np.diff(known[i : i + 2, KNOWN_D:], axis=0).reshape(-1)
     return change / float(t[i + 1] - t[i])
 
