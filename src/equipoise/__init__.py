@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from equipoise.app.api.files import preset, read_recording, read_testbed, write_recording
     from equipoise.app.api.identify import identify
     from equipoise.app.api.inertia import inertia
+    from equipoise.app.api.ledger import ledger
     from equipoise.app.api.observe import observe
     from equipoise.app.api.open_bench import open_bench
     from equipoise.app.api.plan import plan
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from equipoise.simulation.bench import SimulatedBench
 
 VERBS = ("identify", "assess", "observe", "balance", "plan", "design", "calibrate", "compare",
-         "simulate", "open_bench", "inertia", "export", "feed_forward")  # fmt: skip
+         "simulate", "open_bench", "inertia", "export", "feed_forward", "ledger", "keep")  # fmt: skip
 HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "read_testbed": "equipoise.app.api.files",
     "preset": "equipoise.app.api.files",
@@ -66,6 +67,7 @@ __all__ = [
     "identify",
     "inertia",
     "laws",
+    "ledger",
     "methods",
     "observe",
     "open_bench",

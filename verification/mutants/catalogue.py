@@ -271,6 +271,19 @@ ASSESSMENT = _of(
 
 ESTIMATION = (*_of(
     "estimation",
+    *((f"torque_by_cause/{module}.py", text, broken, f"estimation/torque_by_cause/test_{test}.py")
+      for module, test, text, broken in (
+        ("gauss_markov", "gauss_markov", "info - P_u.T @ spread", "info + P_u.T @ spread"),
+        ("gauss_markov", "gauss_markov", "stay * chain.torque[k] - chain",
+         "stay * chain.torque[k] + chain"),
+        ("gauss_markov", "gauss_markov", "onward[k][at.free] -= ", "onward[k][at.free] += "),
+        ("gauss_markov", "gauss_markov", "score[chain.carrier] -= ", "score[chain.carrier] += "),
+        ("move_reaction", "stretch_torque", "- first[0] + integral", "- first[0] - integral"),
+        ("stretch_motion", "stretch_torque", "before - travel_of", "before + travel_of"),
+        ("stretch_torque", "stretch_torque", "value[cause.MOVES] -= ", "value[cause.MOVES] += "),
+        ("stretch_torque", "stretch_torque", "EPS * np.cross(at.g, axis)",
+         "EPS * np.cross(axis, at.g)"),
+    )),
     ("output_error/kernels/gauss_newton.py", "cost += 0.5 * posed.coupling",
      "cost -= 0.5 * posed.coupling",
      "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),

@@ -32,6 +32,7 @@ from equipoise.app.commands.inertia import inertia
 from equipoise.app.commands.inspect import inspect
 from equipoise.app.commands.keep import keep
 from equipoise.app.commands.laws import laws
+from equipoise.app.commands.ledger import ledger
 from equipoise.app.commands.logbook import logbook
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
@@ -76,7 +77,7 @@ app = App(
 GROUPS: dict[str, tuple[Callable[..., int], ...]] = {
     "Start": (demo, new, dashboard),
     "Recordings": (simulate, import_, inspect, convert, repair, replay, track),
-    "Identification": (identify, calibrate, inertia, assess, observe, methods),
+    "Identification": (identify, calibrate, inertia, assess, ledger, observe, methods),
     "Balancing": (balance, keep, laws),
     "Planning": (plan, design),
     "Hardware": (devices, check, record, emulate, print_board, calibrate_camera),

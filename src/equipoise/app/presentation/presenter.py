@@ -25,6 +25,7 @@ KINDS = {
     "JointIdentification": ("of_joint_identification", "identify_runs_views"),
     "AssessedPlatform": ("of_assessment", "assess_views"),
     "Observation": ("of_observation", "observe_views"),
+    "TorqueByCause": ("of_torque_by_cause", "torque_views"),
     "Balancing": ("of_balancing", "balance_views"),
     "Keeping": ("of_keeping", "keep_views"),
     "Planning": ("of_planning", "plan_views"),
