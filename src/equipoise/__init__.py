@@ -35,7 +35,8 @@ if TYPE_CHECKING:
     from equipoise.simulation.bench import SimulatedBench
 
 VERBS = ("identify", "assess", "observe", "balance", "plan", "design", "calibrate", "compare",
-         "simulate", "open_bench", "inertia", "export", "feed_forward", "ledger", "keep")  # fmt: skip
+         "keep", "simulate", "open_bench", "inertia", "export", "feed_forward",
+         "ledger")  # fmt: skip
 HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "read_testbed": "equipoise.app.api.files",
     "preset": "equipoise.app.api.files",
