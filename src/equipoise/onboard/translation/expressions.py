@@ -27,8 +27,6 @@ from equipoise.onboard.translation.values import (
     Type,
     Value,
     has_arrays,
-    is_known,
-    known_type,
     source_function,
     type_of,
     widened,
@@ -53,7 +51,7 @@ COMPARISONS: dict[type[ast.cmpop], tuple[str, Callable[[Any, Any], bool]]] = {
 }
 FUNCTIONS: Mapping[Any, str] = {
     math.sin: "eq_sin", math.cos: "eq_cos", math.atan2: "eq_atan2", math.sqrt: "eq_sqrt",
-    math.exp: "eq_exp", math.ceil: "eq_ceil", math.hypot: "eq_hypot",
+    math.exp: "eq_exp", math.ceil: "eq_ceil", math.floor: "eq_floor",
 }  # fmt: skip
 
 
@@ -262,7 +260,7 @@ class Expressions:
         if all(isinstance(each, Known) for each in values):
             reduce = all if sign == "&&" else any
             return Known(reduce(each.value for each in values if isinstance(each, Known)))
-        texts = [str(self.truth(each)).lower() for each in values]
+        texts = [as_text(self.truth(each)) for each in values]
         return Code(Scalar.BOOL, f"({f' {sign} '.join(texts)})")
 
     def of_ifexp(self, node: ast.IfExp) -> Value:
@@ -387,4 +385,6 @@ class Expressions:
                 raise TypeError(f"{value} is no {kind}")
 
 
-__all__ = ["Expressions", "is_known", "known_type"]
+def as_text(truth: bool | str) -> str:
+    """Return whether something holds as C writes it."""
+    return literal(truth) if isinstance(truth, bool) else truth

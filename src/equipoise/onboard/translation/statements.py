@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.onboard.translation.expressions import Expressions
+from equipoise.onboard.translation.expressions import Expressions, as_text
 from equipoise.onboard.translation.unit import (
     NOTHING,
     Instance,
@@ -165,7 +165,7 @@ class Statements(Expressions):
     def write_while(self, node: ast.While) -> None:
         """Write a loop."""
         truth = self.truth(self.value(node.test))
-        self.put(f"while ({str(truth).lower()}) {{")
+        self.put(f"while ({as_text(truth)}) {{")
         self.block(node.body)
         self.put("}")
 
@@ -363,6 +363,7 @@ def written_function(
     head = f"static {unit.name_of(returns)} {name}({', '.join(texts) or 'void'})"
     summary = (inspect.getdoc(function) or "").split("\n")[0].replace("*/", "* /")
     body = "\n".join("    " * line.depth + constness(line.text, written) for line in lines)
+    unit.names.append(name)
     unit.functions.append(f"/* {summary} */\n{head}\n{{\n{body}\n}}")
     return Instance(name, leaves, returns, frozenset(written & {leaf.name for leaf in leaves}))
 

@@ -7,6 +7,7 @@ written, and fields that nobody reads are not passed.
 
 import ast
 import inspect
+import re
 import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -14,11 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from equipoise.onboard.translation.literals import literal, real_literal
+from equipoise.onboard.translation.literals import real_literal
 from equipoise.onboard.translation.values import (
     ArrayType,
     Code,
-    Group,
     Host,
     Known,
     KnownType,
@@ -77,6 +77,7 @@ class Instance:
 class Unit:
     """The text of a unit, as it grows."""
 
+    names: list[str] = field(default_factory=list[str])  # of the functions, in their order
     functions: list[str] = field(default_factory=list[str])
     structs: dict[Type, tuple[str, str]] = field(default_factory=dict[Type, tuple[str, str]])
     tables: dict[bytes, tuple[Code, str]] = field(default_factory=dict[bytes, tuple[Code, str]])
@@ -110,7 +111,7 @@ class Unit:
     def built(self, kind: Type, text: str, path: str = "") -> Value:
         """Return the value of a type that C has as ``text``; of a record with arrays its fields."""
         if isinstance(kind, KnownType):
-            return Known(kind.value)
+            return kind.value if isinstance(kind.value, Host) else Known(kind.value)
         if isinstance(kind, RecordType) and (has_arrays(kind) or is_known(kind)):
             fields = {n: self.built(each, c_name(f"{text}_{n}")) for n, each in kind.fields}
             return Record(kind.cls, fields)
@@ -207,12 +208,35 @@ class Unit:
             self.instances[key] = written_function(self, function, kinds)
         return self.instances[key]
 
-    @property
-    def text(self) -> str:
-        """The whole unit."""
-        structs = [text for _, text in self.structs.values()]
-        tables = [text for _, text in self.tables.values()]
-        return "\n\n".join(["\n".join(structs), "\n".join(tables), *self.functions]) + "\n"
+    def text_for(self, entry: str, call: str) -> str:
+        """Return the text of what a call of a function needs, that function at the end."""
+        bodies = {name: text for name, text in zip(self.names, self.functions, strict=True)}
+        texts = [bodies[name] for name in self.names if name in reached(entry, bodies)]
+        used = words("\n".join([*texts, call]))
+        structs = dict(reversed(self.structs.values()))
+        kept = list[str]()
+        for name, text in structs.items():
+            if name in used:
+                kept.insert(0, text)
+                used |= words(text)
+        tables = [text for code, text in self.tables.values() if code.text in used]
+        return "\n\n".join(["\n".join(kept), *(["\n".join(tables)] if tables else []), *texts])
+
+
+def words(text: str) -> set[str]:
+    """Return the identifiers of a text."""
+    return set(re.findall(r"[A-Za-z_]\w*", text))
+
+
+def reached(entry: str, bodies: dict[str, str]) -> set[str]:
+    """Return the names of functions that one calls, and itself."""
+    found, waiting = set[str](), [entry]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += [other for other in words(bodies[name]) if other in bodies]
+    return found
 
 
 def argument_type(value: Value) -> Type:
@@ -260,5 +284,3 @@ def tree_of(function: Callable[..., Any]) -> ast.FunctionDef:
     assert isinstance(tree, ast.FunctionDef)
     return tree
 
-
-__all__ = ["Group", "Host", "Instance", "Leaf", "NotTranslatable", "Unit", "literal"]

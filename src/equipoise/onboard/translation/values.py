@@ -170,7 +170,7 @@ def source_function(thing: Any) -> Callable[..., Any] | None:
 
 def widened(each: Type) -> Type:
     """Return the type of a variable that holds such a value."""
-    if not isinstance(each, KnownType):
+    if not isinstance(each, KnownType) or isinstance(each.value, Host):
         return each
     value = each.value
     if isinstance(value, tuple):
@@ -181,7 +181,7 @@ def widened(each: Type) -> Type:
 
 
 def type_of(value: Value) -> Type:
-    """Return the type of a value; TypeError for what has none in C."""
+    """Return the type of a value; a function is known by its name."""
     match value:
         case Known(known):
             return known_type(known)
@@ -192,4 +192,5 @@ def type_of(value: Value) -> Type:
         case Group(items):
             return TupleType(tuple(widened(type_of(item)) for item in items))
         case Host(thing):
-            raise TypeError(f"{thing!r} has no value in C")
+            name = f"{getattr(thing, '__module__', '')}.{getattr(thing, '__qualname__', thing)}"
+            return KnownType(name, value)

@@ -1,0 +1,58 @@
+"""The header: the memory, and what a board calls."""
+
+from equipoise.onboard.sources.translated import Field, Translated
+
+REAL = """\
+/* Numbers: double, or float with -DEQUIPOISE_FLOAT. */
+#ifdef EQUIPOISE_FLOAT
+typedef float real_t;
+#else
+typedef double real_t;
+#endif
+"""
+
+
+def declaration(field: Field) -> str:
+    """Return a field of the struct."""
+    return f"    {field.kind.element.value} {field.name}[{field.kind.size}];"
+
+
+def header(found: Translated) -> str:
+    """Return equipoise.h."""
+    masses = found.testbed.masses
+    names = ", ".join(mass.name for mass in masses)
+    fields = "\n".join(map(declaration, found.fields))
+    return f"""\
+/* {found.method} and {found.law} for {found.testbed.name}: see README.md.
+
+   SI throughout. Body axes as in the testbed file; attitude as a unit quaternion w x y z from body
+   to laboratory, whose z points up; displacements in m from home, in the order: {names}. */
+
+#ifndef EQUIPOISE_H
+#define EQUIPOISE_H
+
+#include <stdbool.h>
+
+#define EQUIPOISE_MASSES {len(masses)}
+
+{REAL}
+/* The whole memory: no heap, nothing static that changes. The fields out_... are for the board. */
+typedef struct {{
+{fields}
+}} equipoise_t;
+
+/* Set the memory to what the testbed file says, before the first row. */
+void equipoise_begin(equipoise_t *self);
+
+/* Take a row that was measured at t s (minus the sensor's delay, half its averaging): attitude q,
+   rate in rad/s without bias, masses at d m. Times rise. Afterwards
+
+       self->out_com[3]           m, centre of mass from the centre of rotation, masses at home
+       self->out_com_sd[3]        m, one sd by the method
+       self->out_displacement[{len(masses)}]  m, where the masses are to go
+       self->out_finished[0]      the law has done its work */
+void equipoise_row(equipoise_t *self, real_t t, const real_t q[4], const real_t rate[3],
+                   const real_t d[EQUIPOISE_MASSES]);
+
+#endif
+"""
