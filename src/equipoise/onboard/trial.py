@@ -36,7 +36,7 @@ def plain_answer(board: Board, memory: Memory) -> Answer:
     take = plain_python(on_row)
     board = board._replace(
         take_row=plain_python(board.take_row),
-        put_com=plain_python(board.put_com),
+        put_estimate=plain_python(board.put_estimate),
         step=plain_python(board.step),
     )
 

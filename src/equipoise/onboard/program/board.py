@@ -12,7 +12,12 @@ import numpy as np
 
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.testbed import Testbed
-from equipoise.onboard.program import camera_filter, momentum_recursion, moves_every_25s
+from equipoise.onboard.program import (
+    camera_filter,
+    level_by_pid,
+    momentum_recursion,
+    moves_every_25s,
+)
 from equipoise.onboard.program.displacements import Rails, put_displacements, rails_on, shift_of
 from equipoise.onboard.program.request import Request
 
@@ -21,7 +26,7 @@ class Board(NamedTuple):
     """What does not change."""
 
     take_row: Callable[..., None]
-    put_com: Callable[..., None]
+    put_estimate: Callable[..., None]
     step: Callable[..., None]
     method: Any
     law: Any
@@ -40,14 +45,17 @@ METHODS = {
     "ekf_9": (camera_filter, camera_filter.filter_of),
     "momentum_recursive": (momentum_recursion, momentum_recursion.recursion_on),
 }
-LAWS = {"ivanov_25s": (moves_every_25s, moves_every_25s.moves_on)}
+LAWS = {
+    "pid": (level_by_pid, level_by_pid.pid_on),
+    "ivanov_25s": (moves_every_25s, moves_every_25s.moves_on),
+}
 
 
 def on_row(own: Board, memory: Memory, t: float, q: Floats, rate: Floats, d: Floats) -> None:
     """Take a row: attitude (w x y z), rate (rad/s) and displacements (m) at t s."""
     out = memory.out
     own.take_row(own.method, memory.method, t, q, rate, d)
-    own.put_com(memory.method, out.com, out.com_sd)
+    own.put_estimate(memory.method, q, out)
     own.step(own.law, memory.law, t, q, rate, shift_of(own.rails, d), out)
     put_displacements(own.rails, out.shift, out.displacement)
 
@@ -57,8 +65,9 @@ def board_of(method: str, law: str, testbed: Testbed, target: Vector3) -> tuple[
     (method_room, method_on), (law_room, law_on) = METHODS[method], LAWS[law]
     constants, memory = method_on(testbed)
     law_constants, law_memory = law_on(testbed, target)
-    out = Request(np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(len(testbed.masses)),
-                  np.zeros(1, np.bool_))  # fmt: skip
-    board = Board(method_room.take_row, method_room.put_com, law_room.step, constants,
+    three = (np.zeros(3) for _ in range(3))
+    room = np.zeros(len(testbed.masses))
+    out = Request(np.array([1.0, 0.0, 0.0, 0.0]), *three, room, np.zeros(1, np.bool_))
+    board = Board(method_room.take_row, method_room.put_estimate, law_room.step, constants,
                   law_constants, rails_on(testbed))  # fmt: skip
     return board, Memory(memory, law_memory, out)

@@ -24,6 +24,7 @@ from equipoise.estimation.motion.sensor_noise import camera_noise
 from equipoise.model.arrays import Bools, Floats, Ints
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
+from equipoise.onboard.program.request import Request
 
 KIND = Kind(attitude=True, estimated=9)
 ROUNDING = 1e-9  # of a step, as ``timeline.fill`` has it
@@ -134,11 +135,13 @@ def take_row(
     memory.count[0] = min(memory.count[0] + 1, COUNTED)
 
 
-def put_com(memory: Memory, com: Floats, sd: Floats) -> None:
-    """Write the centre of mass with the masses at home (m), and its sd by the filter."""
+def put_estimate(memory: Memory, q: Floats, out: Request) -> None:
+    """Write the attitude (that of the row is q), the centre of mass at home, and its sd by the filter."""
+    for j in range(4):
+        out.attitude[j] = memory.mean[j]
     for j in range(3):
-        com[j] = memory.mean[COM + j]
-        sd[j] = memory.covariance[6 + j, 6 + j] ** 0.5
+        out.com[j] = memory.mean[COM + j]
+        out.com_sd[j] = memory.covariance[6 + j, 6 + j] ** 0.5
 
 
 COUNTED = 30000  # rows, chosen: an int of two bytes does not run over

@@ -30,6 +30,7 @@ from equipoise.model.arrays import Bools, Floats, Ints, Six, Triple
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import BODY
 from equipoise.model.testbed import Testbed
+from equipoise.onboard.program.request import Request
 
 UNKNOWNS, EQUATIONS = len(BODY), 3
 
@@ -182,12 +183,14 @@ def take_row(
         memory.count[0] = 1
 
 
-def put_com(memory: Memory, com: Floats, sd: Floats) -> None:
-    """Write the centre of mass with the masses at home (m), and its sd by P alone."""
+def put_estimate(memory: Memory, q: Floats, out: Request) -> None:
+    """Write the attitude (that of the row is q), the centre of mass at home, and its sd by P alone."""
+    for j in range(4):
+        out.attitude[j] = q[j]
     for j in range(3):
         at = MOMENT + j
-        com[j] = memory.x[at]
-        sd[j] = max(memory.P[at, at], 0.0) ** 0.5
+        out.com[j] = memory.x[at]
+        out.com_sd[j] = max(memory.P[at, at], 0.0) ** 0.5
 
 
 def no_rows() -> Rows:

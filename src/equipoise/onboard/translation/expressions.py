@@ -26,6 +26,7 @@ from equipoise.onboard.translation.values import (
     TupleType,
     Type,
     Value,
+    common_type,
     has_arrays,
     source_function,
     type_of,
@@ -269,8 +270,7 @@ class Expressions:
         if isinstance(truth, bool):
             return self.value(node.body if truth else node.orelse)
         first, other = self.value(node.body), self.value(node.orelse)
-        kinds = [widened(type_of(each)) for each in (first, other)]
-        kind = kinds[0] if kinds[0] == kinds[1] else Scalar.REAL
+        kind = common_type(type_of(first), type_of(other))
         text = f"({truth} ? {self.as_type(first, kind)} : {self.as_type(other, kind)})"
         if isinstance(kind, ArrayType):
             return self.chosen(kind, text, first, other)

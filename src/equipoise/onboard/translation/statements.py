@@ -44,7 +44,7 @@ from equipoise.onboard.translation.values import (
     widened,
 )
 
-NAME = re.compile(r"[A-Za-z_]\w*")
+NAME = re.compile(r"(?<![.\w])[A-Za-z_]\w*")  # not a member of a struct
 
 
 @dataclass(frozen=True, slots=True)

@@ -180,6 +180,16 @@ def widened(each: Type) -> Type:
     return Scalar.INT if isinstance(value, int) else Scalar.REAL
 
 
+def common_type(a: Type, b: Type) -> Type:
+    """Return the type of a variable that holds either."""
+    if isinstance(a, RecordType) and isinstance(b, RecordType) and a.cls is b.cls:
+        pairs = zip(a.fields, b.fields, strict=True)
+        fields = ((n, x if x == y else common_type(x, y)) for (n, x), (_, y) in pairs)
+        return RecordType(a.cls, tuple(fields))
+    a, b = widened(a), widened(b)
+    return a if a == b else Scalar.REAL
+
+
 def type_of(value: Value) -> Type:
     """Return the type of a value; a function is known by its name."""
     match value:
