@@ -40,8 +40,13 @@ def plain_answer(board: Board, memory: Memory) -> Answer:
         step=plain_python(board.step),
     )
 
+    before: list[float] = []
+
     def answer(row: Floats) -> Floats:
-        take(board, memory, float(row[0]), row[1:5], row[5:8], row[8:])
+        t = float(row[0])
+        dt = t - before.pop() if before else 0.0
+        before.append(t)
+        take(board, memory, dt, row[1:5], row[5:8], row[8:])
         out = memory.out
         return np.concatenate([out.com, out.com_sd, out.displacement, out.finished * 1.0])
 

@@ -39,6 +39,7 @@ class Memory(NamedTuple):
     method: Any
     law: Any
     out: Request
+    clock: Floats  # (1,) s since the first row
 
 
 METHODS = {
@@ -51,12 +52,13 @@ LAWS = {
 }
 
 
-def on_row(own: Board, memory: Memory, t: float, q: Floats, rate: Floats, d: Floats) -> None:
-    """Take a row: attitude (w x y z), rate (rad/s) and displacements (m) at t s."""
+def on_row(own: Board, memory: Memory, dt: float, q: Floats, rate: Floats, d: Floats) -> None:
+    """Take a row dt s after the last: attitude (w x y z), rate (rad/s) and displacements (m)."""
     out = memory.out
-    own.take_row(own.method, memory.method, t, q, rate, d)
+    own.take_row(own.method, memory.method, dt, q, rate, d)
     own.put_estimate(memory.method, q, out)
-    own.step(own.law, memory.law, t, q, rate, shift_of(own.rails, d), out)
+    memory.clock[0] += dt
+    own.step(own.law, memory.law, memory.clock[0], q, rate, shift_of(own.rails, d), out)
     put_displacements(own.rails, out.shift, out.displacement)
 
 
@@ -70,4 +72,4 @@ def board_of(method: str, law: str, testbed: Testbed, target: Vector3) -> tuple[
     out = Request(np.array([1.0, 0.0, 0.0, 0.0]), *three, room, np.zeros(1, np.bool_))
     board = Board(method_room.take_row, method_room.put_estimate, law_room.step, constants,
                   law_constants, rails_on(testbed))  # fmt: skip
-    return board, Memory(memory, law_memory, out)
+    return board, Memory(memory, law_memory, out, np.zeros(1))

@@ -2,6 +2,8 @@
 
     node 0 -> node 1    the step that a row ends; longer ones are cut as ``dynamics.timeline`` does
 
+Time is counted from node 0, so that single precision knows a step after hours as well as at first.
+
 ``follow``, ``arrive`` and all below them are the filter's own kernels. The first row, and one
 behind a gap, restarts attitude and rate. A mass that has travelled and stands adds where it stopped
 to the covariance of r. Masses are known at rows; between two of them they travel evenly.
@@ -27,6 +29,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.onboard.program.request import Request
 
 KIND = Kind(attitude=True, estimated=9)
+EDGE = 1 + 1e-5  # chosen: so that a way of whole motor steps is never just at the limit
 ROUNDING = 1e-9  # of a step, as ``timeline.fill`` has it
 
 
@@ -57,9 +60,8 @@ class Memory(NamedTuple):
     count: Ints  # (1,) rows so far
 
 
-def put_node(drive: Drive, node: int, t: float, q: Floats) -> None:
-    """Write time and attitude of a node, with nothing stopped there."""
-    drive.t[node] = t
+def put_node(drive: Drive, node: int, q: Floats) -> None:
+    """Write the attitude of a node, with nothing stopped there."""
     for j in range(4):
         drive.q[node, j] = q[j]
     for j in range(3):
@@ -75,7 +77,6 @@ def put_masses(drive: Drive, node: int, d: Floats) -> None:
 
 def go_on(drive: Drive) -> None:
     """Make the last node the first."""
-    drive.t[0] = drive.t[1]
     for j in range(4):
         drive.q[0, j] = drive.q[1, j]
     for j in range(drive.known.shape[1]):
@@ -94,44 +95,42 @@ def put_stops(masses: Masses, memory: Memory, dt: float, d: Floats) -> None:
         memory.travelling[k] = moves
 
 
-def follow_step(own: Filter, memory: Memory, t: float, q: Floats, d: Floats) -> None:
+def follow_step(own: Filter, memory: Memory, dt: float, q: Floats, d: Floats) -> None:
     """Take the estimate to a row, by as many steps as there have to be, and correct it."""
-    drive, start = memory.rows.drive, memory.rows.drive.t[1]
-    dt = t - start
+    drive, parts = memory.rows.drive, 1
     go_on(drive)
-    put_node(drive, 1, t, q)
+    put_node(drive, 1, q)
     put_stops(own.masses, memory, dt, d)
     memory.rows.fresh[0] = dt > own.gap
-    parts = 1
     if dt <= own.gap:
         parts = max(int(math.ceil(dt / LONGEST - ROUNDING)), 1)
+    drive.t[1] = dt / parts
     for k in range(1, parts):
         share = 1.0 / (parts - k + 1)
-        drive.t[1] = start + k * (dt / parts)
         for i in range(d.shape[0]):
             at = KNOWN_D + i
             drive.known[1, at] = between(drive.known[0, at], d[i], share)
         arrive(own.model, drive, 0, 1, memory.mean, memory.covariance, memory.work)
         go_on(drive)
-        put_node(drive, 1, t, q)
+        put_node(drive, 1, q)
     put_masses(drive, 1, d)
     memory.rows.node[0] = 1
     follow(own.model, memory.rows, memory.mean, memory.covariance, memory.work, memory.noted)
 
 
 def take_row(
-    own: Filter, memory: Memory, t: float, q: Floats, rate: Floats, d: Floats
+    own: Filter, memory: Memory, dt: float, q: Floats, rate: Floats, d: Floats
 ) -> None:
-    """Take the attitude (w x y z) at t s, with the masses at d m; the rate is not used."""
+    """Take the attitude (w x y z) dt s after the last, masses at d m; the rate is not used."""
     drive = memory.rows.drive
     if memory.count[0] == 0:
         for node in range(2):
-            put_node(drive, node, t, q)
+            put_node(drive, node, q)
             put_masses(drive, node, d)
         memory.rows.fresh[0], memory.rows.node[0] = True, 0
         follow(own.model, memory.rows, memory.mean, memory.covariance, memory.work, memory.noted)
     else:
-        follow_step(own, memory, t, q, d)
+        follow_step(own, memory, dt, q, d)
     memory.count[0] = min(memory.count[0] + 1, COUNTED)
 
 
@@ -163,7 +162,7 @@ def filter_of(testbed: Testbed) -> tuple[Filter, Memory]:
     stop = [m.mass * m.accuracy / total * m.axis for m in testbed.masses]
     speed = np.array([mass.speed for mass in testbed.masses])
     own = Filter(
-        state.model, Masses(STILL * speed, np.array(stop).reshape(-1, 3)),
+        state.model, Masses(EDGE * STILL * speed, np.array(stop).reshape(-1, 3)),
         max(GAP / camera.rate, SHORTEST),
     )  # fmt: skip
     memory = Memory(

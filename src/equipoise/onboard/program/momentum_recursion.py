@@ -30,6 +30,7 @@ from equipoise.model.arrays import Bools, Floats, Ints, Six, Triple
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import BODY
 from equipoise.model.testbed import Testbed
+from equipoise.onboard.program.camera_filter import EDGE
 from equipoise.onboard.program.request import Request
 
 UNKNOWNS, EQUATIONS = len(BODY), 3
@@ -59,8 +60,7 @@ class Memory(NamedTuple):
     total: Floats  # (3, 10) integrals up to the last pair
     slopes: Floats  # (3, 3, 10) what is integrated, at the last three rows
     rates: Floats  # (3, 3) rad/s at these rows
-    times: Floats  # (3,) s
-    last_t: Floats  # (1,) s of the last row, used or not
+    times: Floats  # (3,) s from the first of them
     last_d: Floats  # (k,) m
     count: Ints  # (1,) rows of the piece
     begun: Bools  # (1,)
@@ -143,35 +143,33 @@ def take_pair(own: Recursion, memory: Memory, d: Floats) -> None:
     learn(own, memory, 1, d)
     put_step(memory, 2, 1, 0)
     learn(own, memory, 2, d)
-    memory.times[0] = memory.times[2]
     for i in range(3):
         memory.rates[0, i] = memory.rates[2, i]
         for j in range(UNKNOWNS + 1):
             memory.slopes[0, i, j] = memory.slopes[2, i, j]
 
 
-def stands(own: Recursion, memory: Memory, t: float, d: Floats) -> bool:
+def stands(own: Recursion, memory: Memory, dt: float, d: Floats) -> bool:
     """Say whether all masses have stood since the last row; note where they are."""
     still = True
     for k in range(d.shape[0]):
-        most = own.slowest[k] * (t - memory.last_t[0])
-        if abs(d[k] - memory.last_d[k]) > most:
+        if abs(d[k] - memory.last_d[k]) > own.slowest[k] * dt:
             still = False
         memory.last_d[k] = d[k]
     return still
 
 
 def take_row(
-    own: Recursion, memory: Memory, t: float, q: Floats, rate: Floats, d: Floats
+    own: Recursion, memory: Memory, dt: float, q: Floats, rate: Floats, d: Floats
 ) -> None:
-    """Take attitude (w x y z) and rate (rad/s) at t s, with the masses at d m."""
-    goes_on = stands(own, memory, t, d) and t - memory.last_t[0] <= own.gap
+    """Take attitude (w x y z) and rate (rad/s) dt s after the last, with the masses at d m."""
+    goes_on = stands(own, memory, dt, d) and dt <= own.gap
     if not (goes_on and memory.begun[0]):
         begin_piece(own, memory)
-    memory.last_t[0], memory.begun[0] = t, True
+    memory.begun[0] = True
     row = memory.count[0]
     w = (rate[0], rate[1], rate[2])
-    memory.times[row] = t
+    memory.times[row] = memory.times[row - 1] + dt if row > 0 else 0.0
     for i in range(3):
         memory.rates[row, i] = rate[i]
     put_slopes(own, w, q, d, memory.slopes[row])
@@ -211,13 +209,13 @@ def recursion_on(testbed: Testbed) -> tuple[Recursion, Memory]:
     assert set(values_of(testbed)) == set(BODY)
     own = Recursion(
         testbed.body.mass, testbed.gravity, stacked(mass_maps(testbed.masses)),
-        STILL * np.array([mass.speed for mass in testbed.masses]),
+        EDGE * STILL * np.array([mass.speed for mass in testbed.masses]),
         max(GAP / gyro.rate, SHORTEST), plan.noise, plan.free,
     )  # fmt: skip
     c = UNKNOWNS
     memory = Memory(
         state.x, state.P, np.zeros(c + 3), np.zeros(c + 3), np.zeros((3, c)), np.zeros(3),
         np.zeros((3, c + 1)), np.zeros((3, 3, c + 1)), np.zeros((3, 3)), np.zeros(3),
-        np.zeros(1), np.zeros(k), np.zeros(1, np.int64), np.zeros(1, np.bool_),
+        np.zeros(k), np.zeros(1, np.int64), np.zeros(1, np.bool_),
     )  # fmt: skip
     return own, memory

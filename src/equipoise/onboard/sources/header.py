@@ -44,14 +44,14 @@ typedef struct {{
 /* Set the memory to what the testbed file says, before the first row. */
 void equipoise_begin(equipoise_t *self);
 
-/* Take a row that was measured at t s (minus the sensor's delay, half its averaging): attitude q,
-   rate in rad/s without bias, masses at d m. Times rise. Afterwards
+/* Take a row that was measured dt s after the last one (0 for the first): attitude q, rate in rad/s
+   without bias, masses at d m, all at the moment of the measurement. Afterwards
 
        self->out_com[3]           m, centre of mass from the centre of rotation, masses at home
        self->out_com_sd[3]        m, one sd by the method
        self->out_displacement[{len(masses)}]  m, where the masses are to go
        self->out_finished[0]      the law has done its work */
-void equipoise_row(equipoise_t *self, real_t t, const real_t q[4], const real_t rate[3],
+void equipoise_row(equipoise_t *self, real_t dt, const real_t q[4], const real_t rate[3],
                    const real_t d[EQUIPOISE_MASSES]);
 
 #endif

@@ -21,7 +21,7 @@ static equipoise_t board;
 
 int main(void)
 {
-    double worst = 0.0;
+    double worst = 0.0, last = vector_rows[0][0];
     long different = 0;
     equipoise_begin(&board);
     for (int i = 0; i < VECTOR_ROWS; i++) {
@@ -36,7 +36,8 @@ int main(void)
         for (int k = 0; k < EQUIPOISE_MASSES; k++) {
             d[k] = (real_t)row[8 + k];
         }
-        equipoise_row(&board, (real_t)row[0], q, rate, d);
+        equipoise_row(&board, (real_t)(row[0] - last), q, rate, d);
+        last = row[0];
         for (int k = 0; k < 3; k++) {
             const double off = fabs((double)board.out_com[k] - wanted[k]) / wanted[3 + k];
             worst = off > worst ? off : worst;
@@ -69,14 +70,19 @@ static equipoise_t board;
 int main(void)
 {
     static char line[64 * (NUMBERS + 1)];
+    double last = 0.0;
+    bool begun = false;
     equipoise_begin(&board);
     while (fgets(line, sizeof line, stdin) != NULL) {
         real_t row[NUMBERS];
         char *rest = line;
-        for (int k = 0; k < NUMBERS; k++) {
+        const double t = strtod(rest, &rest);
+        for (int k = 1; k < NUMBERS; k++) {
             row[k] = (real_t)strtod(rest, &rest);
         }
-        equipoise_row(&board, row[0], row + 1, row + 5, row + 8);
+        equipoise_row(&board, (real_t)(begun ? t - last : 0.0), row + 1, row + 5, row + 8);
+        last = t;
+        begun = true;
         for (int k = 0; k < 3; k++) {
             printf("%.17g ", (double)board.out_com[k]);
         }

@@ -32,7 +32,7 @@ C99 without heap, written by `equipoise generate c` from the library's own funct
 static equipoise_t board;
 equipoise_begin(&board);
 /* for each row of the sensor: */
-equipoise_row(&board, t, q, rate, d);
+equipoise_row(&board, dt, q, rate, d);
 /* then send the masses to board.out_displacement */
 ```
 

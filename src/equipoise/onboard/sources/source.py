@@ -51,7 +51,7 @@ void equipoise_begin(equipoise_t *self)
 {lines}
 }}
 
-void equipoise_row(equipoise_t *self, real_t t, const real_t q[4], const real_t rate[3],
+void equipoise_row(equipoise_t *self, real_t dt, const real_t q[4], const real_t rate[3],
                    const real_t d[EQUIPOISE_MASSES])
 {{
 {entry}

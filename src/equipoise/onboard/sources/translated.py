@@ -80,7 +80,7 @@ def translated(method: str, law: str, testbed: Testbed, target: Vector3) -> Tran
     constants = unit.lifted(board)
     real, (q, rate, d) = Scalar.REAL, (ArrayType(Scalar.REAL, (n,)) for n in (4, 3, masses))
     kinds = {OWN: type_of(constants), MEMORY: memory_type(memory),
-             "t": real, "q": q, "rate": rate, "d": d}  # fmt: skip
+             "dt": real, "q": q, "rate": rate, "d": d}  # fmt: skip
     function = source_function(on_row)
     assert function is not None
     entry = unit.instance(function, kinds)
