@@ -4,7 +4,7 @@
 
 with k = dJ(d) w of masses that stand off home. The integral over a step takes a third row
 (``running_integral``), so an odd row of a piece waits for the next one, and both are then taken.
-``learn_row`` is the recursion's own kernel.
+The recursion is the library's in factors (``factored``), which single precision bears.
 
 While a mass travels no row is taken, and a new piece begins where it stands again: momentum of
 travel needs a speed that a board does not report. Torques of the air are left out. It assumes rates
@@ -23,9 +23,13 @@ from equipoise.dynamics.rigid_body import A as BEND_1
 from equipoise.dynamics.rigid_body import B as BEND_2
 from equipoise.dynamics.rigid_body import cross, gravity_of, times
 from equipoise.estimation.motion.fused_motion import GAP, SHORTEST
-from equipoise.estimation.regression.formulations.rows import Rows, values_of
+from equipoise.estimation.regression.formulations.rows import Rows
+from equipoise.estimation.regression.solvers.factored import (
+    learn_factored,
+    restart_first,
+    variance_of,
+)
 from equipoise.estimation.regression.solvers.recursion import Plan, recursion_of, unfiltered
-from equipoise.estimation.regression.solvers.recursive import begin, learn_row, restart
 from equipoise.model.arrays import Bools, Floats, Ints, Six, Triple
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import BODY
@@ -51,15 +55,16 @@ class Recursion(NamedTuple):
 class Memory(NamedTuple):
     """What changes with every row."""
 
-    x: Floats  # (12,) J, com, constants of the piece
-    P: Floats  # (12, 12)
-    h: Floats  # (12,)
+    x: Floats  # (12,) constants of the piece, J, com
+    D: Floats  # (12,) factors of P, see ``factored``
+    U: Floats  # (66,)
+    h: Floats  # (12,) an equation
     gain: Floats  # (12,)
-    A: Floats  # (3, 9)
-    b: Floats  # (3,)
-    total: Floats  # (3, 10) integrals up to the last pair
-    slopes: Floats  # (3, 3, 10) what is integrated, at the last three rows
-    rates: Floats  # (3, 3) rad/s at these rows
+    slopes: Floats  # (3, 10) what is integrated, at one row
+    total: Floats  # (3, 10) its integral up to the last row that was taken
+    rates: Floats  # (3, 3) rad/s at the last three rows
+    gravity: Floats  # (3, 3) m/s^2, g_B
+    push: Floats  # (3, 3) N m, dmu x g_B - w x k
     times: Floats  # (3,) s from the first of them
     last_d: Floats  # (k,) m
     count: Ints  # (1,) rows of the piece
@@ -88,49 +93,67 @@ def moment_of(maps: Floats, d: Floats) -> Triple:
     return (x, y, z)
 
 
-def put_slopes(own: Recursion, w: Triple, q: Floats, d: Floats, out: Floats) -> None:
-    """Write what is integrated: w x W(w), m e_i x g_B, dmu x g_B - w x k."""
+def put_row(own: Recursion, memory: Memory, row: int, q: Floats, w: Triple, d: Floats) -> None:
+    """Write what a row brings to the integrals."""
     g = gravity_of(q, own.gravity)
-    momentum_columns(w, out)
-    for j in range(MOMENT):
-        turned = cross(w, (out[0, j], out[1, j], out[2, j]))
-        out[0, j], out[1, j], out[2, j] = turned[0], turned[1], turned[2]
-    cross_columns(g, own.mass, MOMENT, out)
     weight, swirl = cross(moment_of(own.maps, d), g), cross(w, times(bend_of(own.maps, d), w))
     for i in range(3):
-        out[i, UNKNOWNS] = weight[i] - swirl[i]
+        memory.rates[row, i], memory.gravity[row, i] = w[i], g[i]
+        memory.push[row, i] = weight[i] - swirl[i]
 
 
-def put_step(memory: Memory, near: int, middle: int, distant: int) -> None:
-    """Add the step from row ``near`` to ``middle``, of the parabola through ``distant``."""
-    t, y, total = memory.times, memory.slopes, memory.total
-    first, second = t[middle] - t[near], t[distant] - t[middle]
-    size, r = abs(first), first / (first + second)
-    bend = r * (first / second)
+def put_slopes(own: Recursion, memory: Memory, row: int) -> None:
+    """Write what is integrated at a row: w x W(w), m e_i x g_B, dmu x g_B - w x k."""
+    out, w, g = memory.slopes, memory.rates[row], memory.gravity[row]
+    rate = (w[0], w[1], w[2])
+    momentum_columns(rate, out)
+    for j in range(MOMENT):
+        turned = cross(rate, (out[0, j], out[1, j], out[2, j]))
+        out[0, j], out[1, j], out[2, j] = turned[0], turned[1], turned[2]
+    cross_columns((g[0], g[1], g[2]), own.mass, MOMENT, out)
+    for i in range(3):
+        out[i, UNKNOWNS] = memory.push[row, i]
+
+
+def add_slopes(own: Recursion, memory: Memory, row: int, weight: float) -> None:
+    """Add to the integrals what is integrated at a row, times a weight (s)."""
+    put_slopes(own, memory, row)
     for i in range(3):
         for j in range(UNKNOWNS + 1):
-            inner = (3.0 - r) * y[near, i, j] + (3.0 + bend + r) * y[middle, i, j]
-            total[i, j] += size / 6.0 * (inner - bend * y[distant, i, j])
+            memory.total[i, j] += weight * memory.slopes[i, j]
+
+
+def add_step(own: Recursion, memory: Memory, near: int, middle: int, distant: int) -> None:
+    """Add the step from row ``near`` to ``middle``, of the parabola through ``distant``."""
+    t = memory.times
+    first, second = t[middle] - t[near], t[distant] - t[middle]
+    size, r = abs(first) / 6.0, first / (first + second)
+    bend = r * (first / second)
+    add_slopes(own, memory, near, size * (3.0 - r))
+    add_slopes(own, memory, middle, size * (3.0 + bend + r))
+    add_slopes(own, memory, distant, -size * bend)
 
 
 def learn(own: Recursion, memory: Memory, row: int, d: Floats) -> None:
     """Take the three equations of a row."""
-    A, b, total = memory.A, memory.b, memory.total
+    columns, h, total = memory.slopes, memory.h, memory.total
     w = (memory.rates[row, 0], memory.rates[row, 1], memory.rates[row, 2])
-    momentum_columns(w, A)
+    momentum_columns(w, columns)
     k = times(bend_of(own.maps, d), w)
-    for i in range(3):
+    for i in range(EQUATIONS):
+        for j in range(EQUATIONS):
+            h[j] = 1.0 if i == j else 0.0
         for j in range(MOMENT):
-            A[i, j] += total[i, j]
+            h[EQUATIONS + j] = columns[i, j] + total[i, j]
         for j in range(MOMENT, UNKNOWNS):
-            A[i, j] = -total[i, j]
-        b[i] = total[i, UNKNOWNS] - k[i]
-    learn_row(A, b, own.noise, memory.x, memory.P, memory.h, memory.gain)
+            h[EQUATIONS + j] = -total[i, j]
+        b, sd = total[i, UNKNOWNS] - k[i], own.noise[i]
+        learn_factored(memory.x, memory.D, memory.U, h, b, sd * sd, memory.gain)
 
 
 def begin_piece(own: Recursion, memory: Memory) -> None:
     """Begin the integrals and their constants anew."""
-    restart(memory.x, memory.P, UNKNOWNS, own.free * own.free)
+    restart_first(memory.x, memory.D, memory.U, EQUATIONS, own.free * own.free)
     for i in range(3):
         for j in range(UNKNOWNS + 1):
             memory.total[i, j] = 0.0
@@ -139,14 +162,13 @@ def begin_piece(own: Recursion, memory: Memory) -> None:
 
 def take_pair(own: Recursion, memory: Memory, d: Floats) -> None:
     """Take the two rows that end a pair of steps, and keep the last as the next pair's first."""
-    put_step(memory, 0, 1, 2)
+    add_step(own, memory, 0, 1, 2)
     learn(own, memory, 1, d)
-    put_step(memory, 2, 1, 0)
+    add_step(own, memory, 2, 1, 0)
     learn(own, memory, 2, d)
     for i in range(3):
-        memory.rates[0, i] = memory.rates[2, i]
-        for j in range(UNKNOWNS + 1):
-            memory.slopes[0, i, j] = memory.slopes[2, i, j]
+        memory.rates[0, i], memory.gravity[0, i] = memory.rates[2, i], memory.gravity[2, i]
+        memory.push[0, i] = memory.push[2, i]
 
 
 def stands(own: Recursion, memory: Memory, dt: float, d: Floats) -> bool:
@@ -168,11 +190,8 @@ def take_row(
         begin_piece(own, memory)
     memory.begun[0] = True
     row = memory.count[0]
-    w = (rate[0], rate[1], rate[2])
     memory.times[row] = memory.times[row - 1] + dt if row > 0 else 0.0
-    for i in range(3):
-        memory.rates[row, i] = rate[i]
-    put_slopes(own, w, q, d, memory.slopes[row])
+    put_row(own, memory, row, q, (rate[0], rate[1], rate[2]), d)
     memory.count[0] = row + 1
     if row == 0:
         learn(own, memory, 0, d)
@@ -182,13 +201,13 @@ def take_row(
 
 
 def put_estimate(memory: Memory, q: Floats, out: Request) -> None:
-    """Write the attitude (that of the row is q), the centre of mass at home, and its sd by P alone."""
+    """Write the attitude (that of the row is q), the centre of mass, and its sd by P alone."""
     for j in range(4):
         out.attitude[j] = q[j]
     for j in range(3):
-        at = MOMENT + j
+        at = EQUATIONS + MOMENT + j
         out.com[j] = memory.x[at]
-        out.com_sd[j] = max(memory.P[at, at], 0.0) ** 0.5
+        out.com_sd[j] = variance_of(memory.D, memory.U, at) ** 0.5
 
 
 def no_rows() -> Rows:
@@ -205,17 +224,18 @@ def recursion_on(testbed: Testbed) -> tuple[Recursion, Memory]:
                          "[gyro] with rate_Hz")  # fmt: skip
     rows, k = no_rows(), len(testbed.masses)
     plan = recursion_of(Plan(unfiltered), testbed, rows)
-    state = begin(plan, constants=True)
-    assert set(values_of(testbed)) == set(BODY)
     own = Recursion(
         testbed.body.mass, testbed.gravity, stacked(mass_maps(testbed.masses)),
         EDGE * STILL * np.array([mass.speed for mass in testbed.masses]),
         max(GAP / gyro.rate, SHORTEST), plan.noise, plan.free,
     )  # fmt: skip
-    c = UNKNOWNS
+    n = EQUATIONS + UNKNOWNS
+    x = np.concatenate([np.zeros(EQUATIONS), plan.start])
+    D = np.concatenate([np.full(EQUATIONS, plan.free**2), plan.sd**2])
+    integrals = (np.zeros((3, UNKNOWNS + 1)) for _ in range(2))
+    rows_of_three = (np.zeros((3, 3)) for _ in range(3))
     memory = Memory(
-        state.x, state.P, np.zeros(c + 3), np.zeros(c + 3), np.zeros((3, c)), np.zeros(3),
-        np.zeros((3, c + 1)), np.zeros((3, 3, c + 1)), np.zeros((3, 3)), np.zeros(3),
-        np.zeros(k), np.zeros(1, np.int64), np.zeros(1, np.bool_),
+        x, D, np.zeros(n * (n - 1) // 2), np.zeros(n), np.zeros(n), *integrals, *rows_of_three,
+        np.zeros(3), np.zeros(k), np.zeros(1, np.int64), np.zeros(1, np.bool_),
     )  # fmt: skip
     return own, memory

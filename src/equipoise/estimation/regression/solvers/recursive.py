@@ -61,7 +61,7 @@ class State(NamedTuple):
 
 
 @part
-def restart(x: Floats, P: Floats, first: int, variance: float) -> None:
+def _restart(x: Floats, P: Floats, first: int, variance: float) -> None:
     """Begin the states from ``first`` on anew, known to nobody."""
     for i in range(first, x.shape[0]):
         x[i] = 0.0
@@ -139,17 +139,6 @@ def _symmetrise(P: Floats) -> None:
             P[i, j] = P[j, i] = 0.5 * (P[i, j] + P[j, i])
 
 
-@part
-def learn_row(
-    A: Floats, b: Floats, noise: Floats, x: Floats, P: Floats, h: Floats, gain: Floats
-) -> None:
-    """Take the equations of a row, one after the other; h and gain are room for that."""
-    for a in range(A.shape[0]):
-        _equation(A[a], a, h)
-        _learn(x, P, h, b[a], noise[a] ** 2, gain)
-    _symmetrise(P)
-
-
 @kernel
 def _advance(
     t: Floats, A: Floats, b: Floats, piece: Ints, noise: Floats, free: float, limit: Floats,
@@ -169,8 +158,11 @@ def _advance(
             _update(A[k], noise, s > c, lam, recent, last)
             _widen(P, recent[m], limit, free, still, lam, gain)
         if new:
-            restart(x, P, c, free**2)
-        learn_row(A[k], b[k], noise, x, P, h, gain)
+            _restart(x, P, c, free**2)
+        for a in range(m):
+            _equation(A[k, a], a, h)
+            _learn(x, P, h, b[k, a], noise[a] ** 2, gain)
+        _symmetrise(P)
         for i in range(c):
             out[k, 0, i], out[k, 1, i] = x[i], P[i, i] ** 0.5
 
