@@ -1,5 +1,6 @@
 """A generated program, compiled and run as a board would run it: one row in, one answer out."""
 
+import re
 import shutil
 import subprocess
 
@@ -66,3 +67,26 @@ class Program:
         self._process.stdin.write(" ".join(float(x).hex() for x in row) + "\n")
         self._process.stdin.flush()
         return np.array([float(x) for x in self._process.stdout.readline().split()])
+
+
+def stack_bytes(folder, *flags):
+    """Return the most stack that a call of equipoise_row takes, by the compiler's call graph."""
+    text = call_graph(folder, flags)
+    own = {
+        name: int(size)
+        for name, size in re.findall(r'title: "(?:[^":]*:)?([^":]+)"[^}]*?(\d+) bytes', text)
+    }
+    calls = re.findall(r'sourcename: "(?:[^":]*:)?([^":]+)" targetname: "(?:[^":]*:)?([^":]+)"', text)
+
+    def deepest(name):
+        below = [deepest(target) for source, target in calls if source == name]
+        return own.get(name, 0) + max(below, default=0)
+
+    return deepest("equipoise_row")
+
+
+def call_graph(folder, flags):
+    """Return what gcc says of stack and calls."""
+    command = [COMPILER, *STRICT, *flags, "-fcallgraph-info=su", "-c", "equipoise.c"]
+    subprocess.run(command, cwd=folder, timeout=LONGEST, check=True)
+    return (folder / "equipoise.ci").read_text(encoding="utf-8")

@@ -1,14 +1,12 @@
 """All files of a generated program, by name."""
 
-from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
-from equipoise.model.testbed import Testbed
 from equipoise.onboard.program.board import board_of
 from equipoise.onboard.sources.header import header
 from equipoise.onboard.sources.programs import CMAKE, STREAM, replay_program, test_vector
 from equipoise.onboard.sources.readme import readme
 from equipoise.onboard.sources.source import source
-from equipoise.onboard.sources.translated import Translated, translated
+from equipoise.onboard.sources.translated import Translated
 from equipoise.onboard.trial import plain_answer, run_trial
 
 DURATION, PERIOD = 32.0, 0.2  # s, chosen: past the first move of ivanov_25s, at a camera's rate
@@ -27,8 +25,3 @@ def files_of(found: Translated, bench: Bench) -> dict[str, str]:
         "test_vector.h": test_vector(found, list(trial.rows), list(trial.answers[:, :-1])),
         "README.md": readme(found),
     }
-
-
-def program_of(method: str, law: str, testbed: Testbed, target: Vector3) -> Translated:
-    """Return a program before its files are written."""
-    return translated(method, law, testbed, target)

@@ -1,0 +1,30 @@
+"""Write the program of a micro-controller for a testbed, with a test vector of a simulated run."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from equipoise.io.files.atomic_file import check_folder, write_folder
+from equipoise.model.arrays import Vector3
+from equipoise.model.testbed import Testbed
+from equipoise.onboard.files import files_of
+from equipoise.onboard.sources.readme import verdicts
+from equipoise.onboard.sources.translated import translated
+from equipoise.simulation.bench import SimulatedBench
+
+SEED = 1  # of the platform that the test vector is simulated with
+
+
+@dataclass(frozen=True, slots=True)
+class Generated:
+    """What was written, and on which boards it fits."""
+
+    paths: tuple[Path, ...]
+    boards: tuple[str, ...]  # a line each
+
+
+def generate(method: str, law: str, testbed: Testbed, target: Vector3, out: Path) -> Generated:
+    """Write a program's files into a folder; InputError for a testbed on which it cannot run."""
+    check_folder(out)
+    program = translated(method, law, testbed, target)
+    files = files_of(program, SimulatedBench(testbed, SEED))
+    return Generated(tuple(write_folder(out, files)), tuple(verdicts(program)))
