@@ -69,6 +69,7 @@ class Memory(NamedTuple):
     last_d: Floats  # (k,) m
     count: Ints  # (1,) rows of the piece
     begun: Bools  # (1,)
+    fresh: Bools  # (1,) no row of the piece has been taken
 
 
 def bend_of(maps: Floats, d: Floats) -> Six:
@@ -157,11 +158,17 @@ def begin_piece(own: Recursion, memory: Memory) -> None:
     for i in range(3):
         for j in range(UNKNOWNS + 1):
             memory.total[i, j] = 0.0
-    memory.count[0] = 0
+    memory.count[0], memory.fresh[0] = 0, True
 
 
 def take_pair(own: Recursion, memory: Memory, d: Floats) -> None:
-    """Take the two rows that end a pair of steps, and keep the last as the next pair's first."""
+    """Take the two rows that end a pair of steps, and keep the last as the next pair's first.
+
+    The first row of a piece says only what the constants are: it is taken with the first pair.
+    """
+    if memory.fresh[0]:
+        learn(own, memory, 0, d)
+        memory.fresh[0] = False
     add_step(own, memory, 0, 1, 2)
     learn(own, memory, 1, d)
     add_step(own, memory, 2, 1, 0)
@@ -193,8 +200,6 @@ def take_row(
     memory.times[row] = memory.times[row - 1] + dt if row > 0 else 0.0
     put_row(own, memory, row, q, (rate[0], rate[1], rate[2]), d)
     memory.count[0] = row + 1
-    if row == 0:
-        learn(own, memory, 0, d)
     if row == 2:
         take_pair(own, memory, d)
         memory.count[0] = 1
@@ -236,6 +241,6 @@ def recursion_on(testbed: Testbed) -> tuple[Recursion, Memory]:
     rows_of_three = (np.zeros((3, 3)) for _ in range(3))
     memory = Memory(
         x, D, np.zeros(n * (n - 1) // 2), np.zeros(n), np.zeros(n), *integrals, *rows_of_three,
-        np.zeros(3), np.zeros(k), np.zeros(1, np.int64), np.zeros(1, np.bool_),
+        np.zeros(3), np.zeros(k), np.zeros(1, np.int64), *(np.zeros(1, np.bool_) for _ in range(2)),
     )  # fmt: skip
     return own, memory

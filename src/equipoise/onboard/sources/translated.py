@@ -26,6 +26,7 @@ from equipoise.onboard.translation.values import (
 
 ELEMENTS = {"f": Scalar.REAL, "i": Scalar.INT, "b": Scalar.BOOL}
 OWN, MEMORY = "own", "memory"
+BYTES_IN_DOUBLE = {Scalar.REAL: 8, Scalar.INT: 4, Scalar.BOOL: 1}  # larger first: no gaps
 BYTES = {Scalar.REAL: 4, Scalar.INT: 4, Scalar.BOOL: 1}  # in single precision on 32 bits
 
 
@@ -84,11 +85,12 @@ def translated(method: str, law: str, testbed: Testbed, target: Vector3) -> Tran
     function = source_function(on_row)
     assert function is not None
     entry = unit.instance(function, kinds)
-    fields = tuple(
+    found = [
         Field(leaf.name.removeprefix("memory_"), leaf.kind, array_at(memory, leaf.path[1:]))
         for leaf in entry.leaves
         if leaf.path[0] == MEMORY and isinstance(leaf.kind, ArrayType)
-    )
+    ]
+    fields = tuple(sorted(found, key=lambda field: -BYTES_IN_DOUBLE[field.kind.element]))
     call = f"{entry.name}({', '.join(argument(unit, constants, leaf) for leaf in entry.leaves)});"
     text = unit.text_for(entry.name, call)
     tables = sum(
