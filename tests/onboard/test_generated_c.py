@@ -16,7 +16,14 @@ from equipoise.onboard.sources.translated import translated
 from equipoise.onboard.trial import plain_answer
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
-from tests.support.c_program import answers, compiled, needs_compiler, replayed, stack_bytes, written
+from tests.support.c_program import (
+    answers,
+    compiled,
+    needs_compiler,
+    replayed,
+    stack_bytes,
+    written,
+)
 from tests.support.onboard_rows import simulated_rows
 
 pytestmark = needs_compiler

@@ -133,7 +133,7 @@ def test_no_row_is_taken_while_a_mass_travels():
     rows[21:, 8] = np.linspace(2.5e-4, 5e-3, 20)  # 2.5 mm/s; the board calls 0.4 mm/s travelling
     own, memory = answered("momentum_recursive", bed, rows)
     np.testing.assert_array_equal(own[-1, :6], still[-1, :6])
-    assert memory.method.count[0] == 1
+    assert memory.method.row_count[0] == 1
 
 
 # --- In factors ------------------------------------------------------------------------------

@@ -55,7 +55,7 @@ def branched(x, out):
         y = x[k]
         if 0.25 < y <= 0.75:
             out[k] = 1.0 if k in (1, 3) else 2.0
-        elif y > 0.75 and not k == 2:
+        elif y > 0.75 and not (k == 2):  # noqa: SIM201 - to be translated
             out[k] = min(max(y, 0.8), 0.9, x[0])
         else:
             out[k] = abs(y - 1) * (k // 2)
@@ -89,7 +89,7 @@ def viewed(x, out):
 def rigged(x, out, rig=None):
     """A record: its switch decides which branch there is."""
     turned = math.sin(x[0]) * rig.size
-    matrix = rig.m if x[0] > 0.5 else rig.m
+    matrix = rig.m if x[0] > 0.5 else rig.m  # noqa: RUF034 - to be translated
     for i in range(2):
         for j in range(3):
             out[3 * i + j] = rig.m[i, j] * turned + matrix[i, 0]

@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 
 COMPILER = shutil.which("gcc") or shutil.which("clang") or shutil.which("cc")
-STRICT = "-std=c99 -pedantic -Wall -Wextra -Wconversion -Werror -ffp-contract=off".split()
+STRICT = [
+    "-std=c99",
+    "-pedantic",
+    "-Wall",
+    "-Wextra",
+    "-Wconversion",
+    "-Werror",
+    "-ffp-contract=off",
+]
 LONGEST = 60.0  # s, of a compilation
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="this machine has no C compiler")
 
@@ -76,7 +84,9 @@ def stack_bytes(folder, *flags):
         name: int(size)
         for name, size in re.findall(r'title: "(?:[^":]*:)?([^":]+)"[^}]*?(\d+) bytes', text)
     }
-    calls = re.findall(r'sourcename: "(?:[^":]*:)?([^":]+)" targetname: "(?:[^":]*:)?([^":]+)"', text)
+    calls = re.findall(
+        r'sourcename: "(?:[^":]*:)?([^":]+)" targetname: "(?:[^":]*:)?([^":]+)"', text
+    )
 
     def deepest(name):
         below = [deepest(target) for source, target in calls if source == name]

@@ -28,5 +28,3 @@ def recording_of(rows):
     """Return rows as the record of a camera, with the masses at the same times."""
     t = rows[:, 0]
     return Recording(attitude=Samples(t, rows[:, 1:5]), masses=Samples(t, rows[:, 8:]))
-
-

@@ -22,10 +22,12 @@ def _plain(function: Callable[..., Any], made: dict[int, Callable[..., Any]]) ->
     if id(found) in made:
         return made[id(found)]
     names: dict[str, Any] = dict(found.__globals__)
-    copy = FunctionType(found.__code__, names, found.__name__, found.__defaults__, found.__closure__)
+    copy = FunctionType(
+        found.__code__, names, found.__name__, found.__defaults__, found.__closure__
+    )
     made[id(found)] = copy
     for name in found.__code__.co_names:
-        thing = names.get(name)
+        thing: Any = names.get(name)
         if hasattr(thing, "py_func") or isinstance(thing, FunctionType):
             names[name] = _plain(thing, made)
     return copy

@@ -48,7 +48,8 @@ def plain_answer(board: Board, memory: Memory) -> Answer:
         before.append(t)
         take(board, memory, dt, row[1:5], row[5:8], row[8:])
         out = memory.out
-        return np.concatenate([out.com, out.com_sd, out.displacement, out.finished * 1.0])
+        finished = np.array([float(out.finished[0])])
+        return np.concatenate([out.com, out.com_sd, out.displacement, finished])
 
     return answer
 
@@ -60,8 +61,7 @@ def rows_of(fresh: Recording, testbed: Testbed, here: Floats, longest: int) -> I
         return
     t = measured_at(attitude.t, testbed.attitude)[-longest:]
     rate, masses = read_or(fresh.rate, t, np.zeros(3)), read_or(fresh.masses, t, here)
-    for row in np.column_stack([t, attitude.values[-longest:], rate, masses]):
-        yield row
+    yield from np.column_stack([t, attitude.values[-longest:], rate, masses])
 
 
 def read_or(channel: Samples | None, t: Floats, otherwise: Floats) -> Floats:

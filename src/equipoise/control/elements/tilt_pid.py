@@ -7,36 +7,50 @@ per axis, with T_a = K_p / K_i (``laws.pid`` says what it is for).
 
 from typing import NamedTuple
 
-from equipoise.control.plant.tilt_axes import Pair, TiltAxes, followed_share, shift_with
+from equipoise.control.plant.tilt_axes import (
+    Feedback,
+    Pair,
+    TiltAxes,
+    followed_share,
+    shift_with,
+)
 from equipoise.model.arrays import Triple
 
 
 class Gains(NamedTuple):
     """The gains of both axes, and what limits them."""
 
-    proportional: Pair  # m/rad
+    feedback: Feedback
     integral: Pair  # m/(rad s)
-    derivative: Pair  # m s/rad
-    frequency: Pair  # rad/s, w0
-    slew: float  # m/s, of a shift by the masses
+
+
+class Integral(NamedTuple):
+    """The integral before a step, and what the masses have not delivered of the last demand."""
+
+    value: Pair  # m
+    undelivered: Pair  # m
 
 
 def damped(gains: Gains, rate: Pair) -> Pair:
     """Return v = -f K_d rate, m."""
-    d, none = gains.derivative, (0.0, 0.0)
-    f = followed_share(gains.frequency, gains.slew, none, d, none, rate)
+    by, none = gains.feedback, (0.0, 0.0)
+    d = by.derivative
+    f = followed_share(Feedback(none, d, by.frequency, by.slew), none, rate)
     return (-f * d[0] * rate[0], -f * d[1] * rate[1])
 
 
 def pid_step(
-    gains: Gains, tilt: Pair, rate: Pair, integral: Pair, undelivered: Pair, share: float, h: float
+    gains: Gains, tilt: Pair, rate: Pair, before: Integral, time: float
 ) -> tuple[Pair, Pair]:
-    """Return v and the next I (m) after h seconds; ``share`` of the integral gain is used."""
-    p, d, i = gains.proportional, gains.derivative, gains.integral
-    f = followed_share(gains.frequency, gains.slew, p, d, tilt, rate)
+    """Return v and the next I (m) after so many seconds.
+
+    A share of the integral gain is the same share of the time.
+    """
+    p, d, i = gains.feedback.proportional, gains.feedback.derivative, gains.integral
+    f, left = followed_share(gains.feedback, tilt, rate), before.undelivered
     grown = (
-        integral[0] + h * share * i[0] * (f * tilt[0] - undelivered[0] / p[0]),
-        integral[1] + h * share * i[1] * (f * tilt[1] - undelivered[1] / p[1]),
+        before.value[0] + time * i[0] * (f * tilt[0] - left[0] / p[0]),
+        before.value[1] + time * i[1] * (f * tilt[1] - left[1] / p[1]),
     )
     v = (
         -f * (p[0] * tilt[0] + d[0] * rate[0]) - grown[0],

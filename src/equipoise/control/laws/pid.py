@@ -36,7 +36,7 @@ import numpy as np
 from equipoise.control.elements import height_adjustment as heights
 from equipoise.control.elements import ziegler_nichols as tuning
 from equipoise.control.elements.loop_stability import Sampled, closed, radius, steps_late
-from equipoise.control.elements.tilt_pid import Gains, damped, pid_step
+from equipoise.control.elements.tilt_pid import Gains, Integral, damped, pid_step
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant import pendulum
 from equipoise.control.plant.moving_means import Bounds
@@ -48,6 +48,7 @@ from equipoise.control.plant.settling import (
     is_quiet,
     settle,
 )
+from equipoise.control.plant.tilt_axes import Feedback
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -173,7 +174,8 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 def both(gains: Pair, plant: pendulum.Hanging) -> Gains:
     """Return the gains of both axes with what limits them."""
     (p, q), (i, j), (d, e) = zip(*gains, strict=True)
-    return Gains((p, q), (i, j), (d, e), pendulum.pair(plant.frequency), plant.slew)
+    feedback = Feedback((p, q), (d, e), pendulum.pair(plant.frequency), plant.slew)
+    return Gains(feedback, (i, j))
 
 
 def damping(state: State, sample: Sample, params: Params) -> Floats:
@@ -247,9 +249,10 @@ def level_phase(state: State, sample: Sample, params: Params) -> tuple[State, Co
     assert state.requested is not None
     height = state.search.height
     undelivered = pendulum.turned(plant, sample.shift - state.requested)
-    known = (pendulum.pair(each) for each in (tilt, rate, state.integral, undelivered))
-    share = (height.depth / plant.depth) ** 0.5
-    v, integral = pid_step(both(state.gains, plant), *known, share, PERIOD)
+    before = Integral(pendulum.pair(state.integral), pendulum.pair(undelivered))
+    time = PERIOD * (height.depth / plant.depth) ** 0.5
+    gains = both(state.gains, plant)
+    v, integral = pid_step(gains, pendulum.pair(tilt), pendulum.pair(rate), before, time)
     shift = heights.shift_at_height(state.search, np.array(v))
     quiet = params.quiet if height.measurements else params.rough
     search, command = heights.levelling(state.search, sample, shift, quiet)

@@ -27,6 +27,7 @@ import numpy as np
 from equipoise.control.law import Sample
 from equipoise.control.plant.actuator_limits import filling_time, greatest_shift, greatest_slew
 from equipoise.control.plant.tilt_axes import (
+    Feedback,
     Pair,
     TiltAxes,
     followed_share,
@@ -111,8 +112,8 @@ def turned(plant: Hanging, shift: Vector3) -> Floats:
 
 def spared(plant: Hanging, p: Floats, d: Floats, tilt: Floats, rate: Floats) -> float:
     """Return how much of v = -(p tilt + d rate) the masses can follow through a swing, 0 to 1."""
-    w, known = pair(plant.frequency), (pair(p), pair(d), pair(tilt), pair(rate))
-    return followed_share(w, plant.slew, *known)
+    feedback = Feedback(pair(p), pair(d), pair(plant.frequency), plant.slew)
+    return followed_share(feedback, pair(tilt), pair(rate))
 
 
 def sensor_delay(testbed: Testbed) -> float:

@@ -26,6 +26,15 @@ class TiltAxes(NamedTuple):
     across_second: Triple
 
 
+class Feedback(NamedTuple):
+    """A feedback of tilt and rate about both axes, and what limits it."""
+
+    proportional: Pair  # m/rad
+    derivative: Pair  # m s/rad
+    frequency: Pair  # rad/s, w0
+    slew: float  # m/s, of a shift by the masses
+
+
 def inner(a: Triple, b: Triple) -> float:
     """Return a . b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -62,14 +71,14 @@ def turned_along(axes: TiltAxes, shift: Triple) -> Pair:
     return -inner(shift, axes.across_first), -inner(shift, axes.across_second)
 
 
-def followed_share(w: Pair, slew: float, p: Pair, d: Pair, tilt: Pair, rate: Pair) -> float:
-    """Return how much of v = -(p tilt + d rate) masses of ``slew`` m/s follow through a swing.
+def followed_share(feedback: Feedback, tilt: Pair, rate: Pair) -> float:
+    """Return how much of v = -(p tilt + d rate) the masses can follow through a swing.
 
     Of the slope |w (p tilt + d rate) + j (p rate - d w^2 tilt)| over both axes, w in rad/s.
     """
-    square = 0.0
+    p, d, w, square = feedback.proportional, feedback.derivative, feedback.frequency, 0.0
     for k in range(2):
         real = w[k] * (p[k] * tilt[k] + d[k] * rate[k])
         late = p[k] * rate[k] - d[k] * w[k] * w[k] * tilt[k]
         square += real * real + late * late
-    return 1.0 if square <= 0.0 else min(1.0, SPARE * slew / square**0.5)
+    return 1.0 if square <= 0.0 else min(1.0, SPARE * feedback.slew / square**0.5)

@@ -67,9 +67,8 @@ def board_of(method: str, law: str, testbed: Testbed, target: Vector3) -> tuple[
     (method_room, method_on), (law_room, law_on) = METHODS[method], LAWS[law]
     constants, memory = method_on(testbed)
     law_constants, law_memory = law_on(testbed, target)
-    three = (np.zeros(3) for _ in range(3))
-    room = np.zeros(len(testbed.masses))
-    out = Request(np.array([1.0, 0.0, 0.0, 0.0]), *three, room, np.zeros(1, np.bool_))
+    level, room = np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(len(testbed.masses))
+    out = Request(level, np.zeros(3), np.zeros(3), np.zeros(3), room, np.zeros(1, np.bool_))
     board = Board(method_room.take_row, method_room.put_estimate, law_room.step, constants,
                   law_constants, rails_on(testbed))  # fmt: skip
     return board, Memory(memory, law_memory, out, np.zeros(1))

@@ -57,7 +57,7 @@ class Memory(NamedTuple):
     work: Work
     noted: Floats  # (1, 20) t; com, J; their sd; surprise
     travelling: Bools  # (k,)
-    count: Ints  # (1,) rows so far
+    row_count: Ints  # (1,) rows so far
 
 
 def put_node(drive: Drive, node: int, q: Floats) -> None:
@@ -103,7 +103,7 @@ def follow_step(own: Filter, memory: Memory, dt: float, q: Floats, d: Floats) ->
     put_stops(own.masses, memory, dt, d)
     memory.rows.fresh[0] = dt > own.gap
     if dt <= own.gap:
-        parts = max(int(math.ceil(dt / LONGEST - ROUNDING)), 1)
+        parts = max(math.ceil(dt / LONGEST - ROUNDING), 1)
     drive.t[1] = dt / parts
     for k in range(1, parts):
         share = 1.0 / (parts - k + 1)
@@ -118,12 +118,10 @@ def follow_step(own: Filter, memory: Memory, dt: float, q: Floats, d: Floats) ->
     follow(own.model, memory.rows, memory.mean, memory.covariance, memory.work, memory.noted)
 
 
-def take_row(
-    own: Filter, memory: Memory, dt: float, q: Floats, rate: Floats, d: Floats
-) -> None:
+def take_row(own: Filter, memory: Memory, dt: float, q: Floats, rate: Floats, d: Floats) -> None:
     """Take the attitude (w x y z) dt s after the last, masses at d m; the rate is not used."""
     drive = memory.rows.drive
-    if memory.count[0] == 0:
+    if memory.row_count[0] == 0:
         for node in range(2):
             put_node(drive, node, q)
             put_masses(drive, node, d)
@@ -131,11 +129,11 @@ def take_row(
         follow(own.model, memory.rows, memory.mean, memory.covariance, memory.work, memory.noted)
     else:
         follow_step(own, memory, dt, q, d)
-    memory.count[0] = min(memory.count[0] + 1, COUNTED)
+    memory.row_count[0] = min(memory.row_count[0] + 1, COUNTED)
 
 
 def put_estimate(memory: Memory, q: Floats, out: Request) -> None:
-    """Write the attitude (that of the row is q), the centre of mass at home, and its sd by the filter."""
+    """Write attitude, centre of mass (masses at home) and its sd, as the filter has them."""
     for j in range(4):
         out.attitude[j] = memory.mean[j]
     for j in range(3):

@@ -26,7 +26,7 @@ from equipoise.control.elements.height_adjustment import (
     height_search,
 )
 from equipoise.control.elements.height_step import along_for, depth_for, is_known, last_shift
-from equipoise.control.elements.tilt_pid import Gains, damped, pid_step, shift_at
+from equipoise.control.elements.tilt_pid import Gains, Integral, damped, pid_step, shift_at
 from equipoise.control.laws.pid import begin, both
 from equipoise.control.plant.moving_means import (
     Bounds,
@@ -177,9 +177,9 @@ def level(
     undelivered = turned_along(
         own.axes, (shift[0] - requested[0], shift[1] - requested[1], shift[2] - requested[2])
     )
-    before = (memory.integral[0], memory.integral[1])
-    share = (memory.depth[0] / own.depth) ** 0.5
-    v, grown = pid_step(own.gains, tilt, rate, before, undelivered, share, PERIOD)
+    before = Integral((memory.integral[0], memory.integral[1]), undelivered)
+    time = PERIOD * (memory.depth[0] / own.depth) ** 0.5
+    v, grown = pid_step(own.gains, tilt, rate, before, time)
     memory.integral[0], memory.integral[1] = grown[0], grown[1]
     put_shift(out, shift_at(own.axes, own.up, v, own.reach, memory.along[0]))
     bounds = own.quiet if memory.measurements[0] > 0 else own.rough
@@ -238,7 +238,12 @@ def pid_on(testbed: Testbed, target: Vector3) -> tuple[Pid, Memory]:
         both(params.gains, plant), plant.depth, height.along, plant.reach, plant.slew,
         ARRIVED * max(plant.step, TINY), params.calm, params.rough, params.quiet,
     )  # fmt: skip
-    floats = (np.zeros(n) for n in (10, 2, 3, 1, 1, 1, 1, 1))
-    integers = (np.zeros(1, np.int64) for _ in range(2))
-    flags = (np.zeros(1, np.bool_) for _ in range(4))
-    return own, Memory(*floats, *integers, *flags)
+    return own, Memory(
+        np.zeros(10), np.zeros(2), np.zeros(3), np.zeros(1), np.zeros(1), np.zeros(1), np.zeros(1),
+        np.zeros(1), np.zeros(1, np.int64), np.zeros(1, np.int64), off(), off(), off(), off(),
+    )  # fmt: skip
+
+
+def off() -> Bools:
+    """Return a flag that is not set."""
+    return np.zeros(1, np.bool_)

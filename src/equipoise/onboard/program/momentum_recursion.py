@@ -67,7 +67,7 @@ class Memory(NamedTuple):
     push: Floats  # (3, 3) N m, dmu x g_B - w x k
     times: Floats  # (3,) s from the first of them
     last_d: Floats  # (k,) m
-    count: Ints  # (1,) rows of the piece
+    row_count: Ints  # (1,) rows of the piece
     begun: Bools  # (1,)
     fresh: Bools  # (1,) no row of the piece has been taken
 
@@ -158,7 +158,7 @@ def begin_piece(own: Recursion, memory: Memory) -> None:
     for i in range(3):
         for j in range(UNKNOWNS + 1):
             memory.total[i, j] = 0.0
-    memory.count[0], memory.fresh[0] = 0, True
+    memory.row_count[0], memory.fresh[0] = 0, True
 
 
 def take_pair(own: Recursion, memory: Memory, d: Floats) -> None:
@@ -188,21 +188,19 @@ def stands(own: Recursion, memory: Memory, dt: float, d: Floats) -> bool:
     return still
 
 
-def take_row(
-    own: Recursion, memory: Memory, dt: float, q: Floats, rate: Floats, d: Floats
-) -> None:
+def take_row(own: Recursion, memory: Memory, dt: float, q: Floats, rate: Floats, d: Floats) -> None:
     """Take attitude (w x y z) and rate (rad/s) dt s after the last, with the masses at d m."""
     goes_on = stands(own, memory, dt, d) and dt <= own.gap
     if not (goes_on and memory.begun[0]):
         begin_piece(own, memory)
     memory.begun[0] = True
-    row = memory.count[0]
+    row = memory.row_count[0]
     memory.times[row] = memory.times[row - 1] + dt if row > 0 else 0.0
     put_row(own, memory, row, q, (rate[0], rate[1], rate[2]), d)
-    memory.count[0] = row + 1
+    memory.row_count[0] = row + 1
     if row == 2:
         take_pair(own, memory, d)
-        memory.count[0] = 1
+        memory.row_count[0] = 1
 
 
 def put_estimate(memory: Memory, q: Floats, out: Request) -> None:
@@ -237,10 +235,10 @@ def recursion_on(testbed: Testbed) -> tuple[Recursion, Memory]:
     n = EQUATIONS + UNKNOWNS
     x = np.concatenate([np.zeros(EQUATIONS), plan.start])
     D = np.concatenate([np.full(EQUATIONS, plan.free**2), plan.sd**2])
-    integrals = (np.zeros((3, UNKNOWNS + 1)) for _ in range(2))
-    rows_of_three = (np.zeros((3, 3)) for _ in range(3))
+    slopes, rows3 = np.zeros((3, UNKNOWNS + 1)), np.zeros((3, 3))
     memory = Memory(
-        x, D, np.zeros(n * (n - 1) // 2), np.zeros(n), np.zeros(n), *integrals, *rows_of_three,
-        np.zeros(3), np.zeros(k), np.zeros(1, np.int64), *(np.zeros(1, np.bool_) for _ in range(2)),
+        x, D, np.zeros(n * (n - 1) // 2), np.zeros(n), np.zeros(n), slopes, slopes.copy(), rows3,
+        rows3.copy(), rows3.copy(), np.zeros(3), np.zeros(k), np.zeros(1, np.int64),
+        np.zeros(1, np.bool_), np.zeros(1, np.bool_),
     )  # fmt: skip
     return own, memory

@@ -1,6 +1,6 @@
 """The law ``ivanov_25s`` row by row: four moves to the target, one every 25 s.
 
-    s = r* - r        at the first row from each due moment on (``control.laws.ivanov_25s``)
+s = r* - r        at the first row from each due moment on (``control.laws.ivanov_25s``)
 """
 
 from typing import NamedTuple

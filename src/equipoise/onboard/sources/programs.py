@@ -138,9 +138,7 @@ def replay_program() -> str:
 
 def numbers(rows: Sequence[Floats]) -> str:
     """Return rows of numbers as C has them, exact to the last bit."""
-    return ",\n".join(
-        "    {" + ", ".join(float(x).hex() for x in row) + "}" for row in rows
-    )
+    return ",\n".join("    {" + ", ".join(float(x).hex() for x in row) + "}" for row in rows)
 
 
 def test_vector(found: Translated, rows: Sequence[Floats], results: Sequence[Floats]) -> str:

@@ -2,7 +2,7 @@
 
 from equipoise.onboard.sources.translated import Translated
 
-# RAM in bytes: the smallest and the largest board of Table 1 of da Silva et al. 2021, and one between.
+# RAM in bytes: the smallest and the largest board of da Silva et al. 2021, Table 1, and a third.
 BOARDS = (
     ("Arduino Uno, 2 KB", 2 * 1024),
     ("a board of 8 KB", 8 * 1024),

@@ -13,7 +13,7 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.testbed import Testbed
 from equipoise.onboard.program.board import Board, Memory, board_of, on_row
 from equipoise.onboard.translation.literals import literal, real_literal
-from equipoise.onboard.translation.unit import Leaf, Unit, followed
+from equipoise.onboard.translation.unit import Leaf, Unit, class_of, followed
 from equipoise.onboard.translation.values import (
     ArrayType,
     Code,
@@ -68,10 +68,10 @@ class Translated:
 
 def memory_type(thing: Any) -> Type:
     """Return the type of arrays and of records of them: nothing in them is known."""
-    if isinstance(thing, np.ndarray):
+    if hasattr(thing, "dtype"):
         return ArrayType(ELEMENTS[thing.dtype.kind], thing.shape)
     fields = ((name, memory_type(getattr(thing, name))) for name in thing._fields)
-    return RecordType(type(thing), tuple(fields))
+    return RecordType(class_of(thing), tuple(fields))
 
 
 def translated(method: str, law: str, testbed: Testbed, target: Vector3) -> Translated:
@@ -127,6 +127,3 @@ def beginnings(fields: tuple[Field, ...]) -> list[str]:
         for k, value in enumerate(np.asarray(field.start).reshape(-1))
         if value.item()
     ]
-
-
-

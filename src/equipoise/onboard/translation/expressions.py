@@ -50,6 +50,7 @@ COMPARISONS: dict[type[ast.cmpop], tuple[str, Callable[[Any, Any], bool]]] = {
     ast.Eq: ("==", lambda a, b: a == b),
     ast.NotEq: ("!=", lambda a, b: a != b),
 }
+WHOLE = {math.ceil, math.floor}  # give an int in Python
 FUNCTIONS: Mapping[Any, str] = {
     math.sin: "eq_sin", math.cos: "eq_cos", math.atan2: "eq_atan2", math.sqrt: "eq_sqrt",
     math.exp: "eq_exp", math.ceil: "eq_ceil", math.floor: "eq_floor",
@@ -83,7 +84,7 @@ class Expressions:
 
     def value(self, node: ast.expr) -> Value:
         """Return the value of an expression."""
-        handler = getattr(self, f"of_{type(node).__name__.lower()}", None)
+        handler: Any = getattr(self, f"of_{type(node).__name__.lower()}", None)
         if handler is None:
             raise NotTranslatable(node, ast.unparse(node))
         return handler(node)
@@ -137,13 +138,14 @@ class Expressions:
     def item(self, value: Value, index: Value, node: ast.expr) -> Value:
         """Return an item of a tuple."""
         if isinstance(index, Known):
+            k: int = index.value
             match value:
                 case Known(known):
-                    return self.unit.lifted(known[index.value])
+                    return self.unit.lifted(known[k])
                 case Group(items):
-                    return items[index.value]
+                    return items[k]
                 case Code(TupleType(items), text):
-                    return Code(items[index.value], text + self.unit.place(value.type, index.value))
+                    return Code(items[k], text + self.unit.place(value.type, k))
                 case _:
                     raise NotTranslatable(node, ast.unparse(node))
         kind = widened(type_of(value))
@@ -307,7 +309,8 @@ class Expressions:
         if thing in (int, float, bool):
             return self.converted(thing, arguments[0])
         if thing in FUNCTIONS:
-            return Code(Scalar.REAL, f"{FUNCTIONS[thing]}({', '.join(map(self.real, arguments))})")
+            text = f"{FUNCTIONS[thing]}({', '.join(map(self.real, arguments))})"
+            return Code(Scalar.INT, f"((int){text})") if thing in WHOLE else Code(Scalar.REAL, text)
         function = source_function(thing)
         if function is None:
             raise NotTranslatable(node, ast.unparse(node))
@@ -361,28 +364,35 @@ class Expressions:
 
     def as_type(self, value: Value, kind: Type) -> str:
         """Return a value as a C expression of a type."""
+        if isinstance(value, Code):
+            return as_number(value, kind)
+        if isinstance(value, Known) and isinstance(kind, Scalar):
+            return real_literal(value.value) if kind is Scalar.REAL else literal(value.value)
+        return self.assembled(value, kind)
+
+    def assembled(self, value: Value, kind: Type) -> str:
+        """Return a tuple or a record as a struct."""
         match value:
-            case Known(known) if kind is Scalar.REAL:
-                return real_literal(known)
-            case Known(known) if isinstance(kind, Scalar):
-                return literal(known)
             case Known(known) if isinstance(kind, TupleType):
-                return self.as_type(Group(tuple(Known(item) for item in known)), kind)
-            case Code(found, text) if found == kind:
-                return text
-            case Code(Scalar.INT | Scalar.BOOL, text) if kind is Scalar.REAL:
-                return f"((real_t){text})"
-            case Code(Scalar.BOOL, text) if kind is Scalar.INT:
-                return text
+                return self.assembled(Group(tuple(Known(item) for item in known)), kind)
             case Group(items) if isinstance(kind, TupleType):
                 parts = [self.as_type(i, k) for i, k in zip(items, kind.items, strict=True)]
                 inner = f"{{{', '.join(parts)}}}" if kind.is_even else ", ".join(parts)
-                return f"({self.unit.name_of(kind)}){{{inner}}}"
             case Record(_, fields) if isinstance(kind, RecordType) and not has_arrays(kind):
                 parts = [f".{n} = {self.as_type(fields[n], each)}" for n, each in kind.stored]
-                return f"({self.unit.name_of(kind)}){{{', '.join(parts)}}}"
+                inner = ", ".join(parts)
             case _:
                 raise TypeError(f"{value} is no {kind}")
+        return f"({self.unit.name_of(kind)}){{{inner}}}"
+
+
+def as_number(value: Code, kind: Type) -> str:
+    """Return a C expression as one of another type of number."""
+    if value.type == kind or (value.type, kind) == (Scalar.BOOL, Scalar.INT):
+        return value.text
+    if kind is Scalar.REAL and isinstance(value.type, Scalar):
+        return f"((real_t){value.text})"
+    raise TypeError(f"{value} is no {kind}")
 
 
 def as_text(truth: bool | str) -> str:

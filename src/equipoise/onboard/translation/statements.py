@@ -40,6 +40,7 @@ from equipoise.onboard.translation.values import (
     Value,
     has_arrays,
     is_known,
+    items_of,
     type_of,
     widened,
 )
@@ -213,8 +214,8 @@ class Statements(Expressions):
                 return list(items)
             case Record(_, fields):
                 return list(fields.values())
-            case Known(items) if isinstance(items, tuple):
-                return [self.unit.lifted(item) for item in items]
+            case Known(known) if items_of(known) is not None:
+                return [self.unit.lifted(item) for item in items_of(known) or ()]
             case Code(TupleType(items)):
                 whole = self.kept(value)
                 return [Code(kind, whole.text + self.unit.place(whole.type, k))
@@ -236,7 +237,8 @@ class Statements(Expressions):
             self.names[name] = self.constant(name, value)
             return
         kind = self.variables.get(name)
-        own = self.names[name].text if kind else c_name(name)  # pyright: ignore
+        before = self.names.get(name)
+        own = before.text if kind and isinstance(before, Code) else c_name(name)
         if kind is None:
             kind = widened(type_of(value))
             if has_arrays(kind):
@@ -295,8 +297,7 @@ class Statements(Expressions):
         """Return what a call gives; new arrays are blocks of the function's own."""
         if thing is np.zeros:
             shape = self.known(arguments[0], node)
-            shape = shape if isinstance(shape, tuple) else (shape,)
-            return Code(ArrayType(Scalar.REAL, shape), "{0}", NEW)
+            return Code(ArrayType(Scalar.REAL, items_of(shape) or (shape,)), "{0}", NEW)
         if thing is np.array:
             kind = widened(type_of(arguments[0]))
             assert isinstance(kind, TupleType)
@@ -328,9 +329,8 @@ def stored_names(tree: ast.AST) -> Iterator[str]:
     """Yield every name each time that it is set, but for loops."""
     loops = {id(node.target) for node in ast.walk(tree) if isinstance(node, ast.For)}
     for node in ast.walk(tree):
-        is_stored = isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-        if is_stored and id(node) not in loops:
-            yield node.id
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield from () if id(node) in loops else (node.id,)
         if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name):
             yield node.target.id
 
@@ -345,9 +345,7 @@ def without_unused(lines: list[Line]) -> list[Line]:
         lines = kept
 
 
-def written_function(
-    unit: Unit, function: Callable[..., Any], kinds: dict[str, Type]
-) -> Instance:
+def written_function(unit: Unit, function: Callable[..., Any], kinds: dict[str, Type]) -> Instance:
     """Write a function for these types of arguments into the unit."""
     scope = Statements(unit, function, kinds)
     scope.body(scope.tree.body)

@@ -23,6 +23,7 @@ from equipoise.onboard.translation.values import (
     Known,
     KnownType,
     Record,
+    RecordClass,
     RecordType,
     Scalar,
     TupleType,
@@ -90,10 +91,9 @@ class Unit:
         """Return what is known of a thing of Python; an array becomes a table."""
         if isinstance(thing, np.ndarray):
             return self.table(thing)
-        if isinstance(thing, tuple) and hasattr(thing, "_fields"):
-            named: Any = thing
-            fields = {n: self.lifted(getattr(named, n)) for n in named._fields}
-            return Record(type(named), fields)
+        if hasattr(thing, "_fields") and not isinstance(thing, type):
+            fields = {n: self.lifted(getattr(thing, n)) for n in thing._fields}
+            return Record(class_of(thing), fields)
         return lifted(thing)
 
     def table(self, values: Any) -> Code:
@@ -239,6 +239,11 @@ def reached(entry: str, bodies: dict[str, str]) -> set[str]:
     return found
 
 
+def class_of(thing: Any) -> RecordClass:
+    """Return the class of a NamedTuple."""
+    return thing.__class__
+
+
 def argument_type(value: Value) -> Type:
     """Return the type of an argument: a switch or a count stays known, a measure does not."""
     kind = type_of(value)
@@ -283,4 +288,3 @@ def tree_of(function: Callable[..., Any]) -> ast.FunctionDef:
     (tree,) = ast.parse(textwrap.dedent(inspect.getsource(function))).body
     assert isinstance(tree, ast.FunctionDef)
     return tree
-

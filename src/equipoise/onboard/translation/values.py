@@ -14,7 +14,7 @@ function takes no more of it than it uses.
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -142,23 +142,24 @@ def has_arrays(each: Type) -> bool:
     return isinstance(each, ArrayType)
 
 
+def items_of(thing: Any) -> tuple[Any, ...] | None:
+    """Return the items of a plain tuple; None for anything else."""
+    is_plain = isinstance(thing, tuple) and not hasattr(cast(Any, thing), "_fields")
+    return cast("tuple[Any, ...]", thing) if is_plain else None
+
+
 def is_number(thing: Any) -> bool:
     """Say whether a thing of Python is a number, None or a tuple of such."""
-    if isinstance(thing, tuple) and not hasattr(thing, "_fields"):
-        return all(map(is_number, thing))
+    items = items_of(thing)
+    if items is not None:
+        return all(map(is_number, items))
     return thing is None or isinstance(thing, (bool, int, float))
 
 
 def lifted(thing: Any) -> Value:
     """Return what is known of a thing of Python; arrays are the unit's matter."""
-    if isinstance(thing, np.generic):
-        thing = thing.item()
-    if is_number(thing):
-        return Known(thing)
-    if isinstance(thing, tuple):
-        fields: tuple[str, ...] = thing._fields  # pyright: ignore[reportAttributeAccessIssue]
-        return Record(type(thing), {n: lifted(getattr(thing, n)) for n in fields})
-    return Host(thing)
+    number: Any = thing.item() if hasattr(thing, "item") else thing
+    return Known(number) if is_number(number) else Host(thing)
 
 
 def source_function(thing: Any) -> Callable[..., Any] | None:
@@ -172,9 +173,10 @@ def widened(each: Type) -> Type:
     """Return the type of a variable that holds such a value."""
     if not isinstance(each, KnownType) or isinstance(each.value, Host):
         return each
-    value = each.value
-    if isinstance(value, tuple):
-        return TupleType(tuple(widened(known_type(item)) for item in value))
+    value: Any = each.value
+    items = items_of(value)
+    if items is not None:
+        return TupleType(tuple(widened(known_type(item)) for item in items))
     if isinstance(value, bool):
         return Scalar.BOOL
     return Scalar.INT if isinstance(value, int) else Scalar.REAL

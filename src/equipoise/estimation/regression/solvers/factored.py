@@ -5,10 +5,11 @@
     D_j *= alpha_j-1 / alpha_j,    U_ij += K_i (-f_j / alpha_j-1),    K_i += v_j U_ij
     x += K / alpha_n (b - h x)
 
-It is the recursion of ``recursive`` without forgetting, equation by equation (Bierman, Factorization
-Methods for Discrete Sequential Estimation, 1977, chapter V). D stays positive whatever is rounded;
-P itself, in single precision, does not. Unknowns that restart stand first: their rows of U and D
-are then all there is of them. U above its diagonal is stored column by column.
+It is the recursion of ``recursive`` without forgetting, equation by equation (Bierman,
+Factorization Methods for Discrete Sequential Estimation, 1977, chapter V). D stays positive
+whatever is rounded; P itself, in single precision, does not. Unknowns that restart stand
+first: their rows of U and D are then all there is of them. U above its diagonal is stored column by
+column.
 """
 
 from equipoise.model.arrays import Floats
