@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.app.runs.generation import board_templates
 from equipoise.io.testbed.presets import read_preset
 from equipoise.onboard.files import files_of
 from equipoise.onboard.program.board import board_of
@@ -30,7 +31,7 @@ HEIGHT = 6e-6  # m: neither law's filter knows the height better than 2 to 4 um
 def run_in_c(law, seed, duration, folder):
     """Return the trial, and how far off the target the platform truly is (m)."""
     program = translated("ekf_9", law, BED, OPTIONS.target)
-    written(folder, files_of(program, SimulatedBench(BED, 1)))
+    written(folder, files_of(program, board_templates(), SimulatedBench(BED, 1)))
     with lab(BED, seed) as found, Program(compiled(folder, "stream_rows", "-O2")) as answer:
         trial = run_trial(found.bench, answer, duration, 0.25, longest=20)
         found.wait(2.0)  # the last move

@@ -7,11 +7,12 @@ from functools import cache
 import numpy as np
 import pytest
 
+from equipoise.app.runs.generation import board_templates
 from equipoise.io.testbed.presets import read_preset
 from equipoise.onboard.files import files_of
 from equipoise.onboard.program.board import LAWS, METHODS, board_of
-from equipoise.onboard.sources.programs import WITHIN
-from equipoise.onboard.sources.readme import STACK, verdicts
+from equipoise.onboard.sources.boards import STACK, verdicts
+from equipoise.onboard.sources.filled import WITHIN
 from equipoise.onboard.sources.translated import translated
 from equipoise.onboard.trial import plain_answer
 from equipoise.simulation.bench import SimulatedBench
@@ -42,7 +43,7 @@ def folders(tmp_path_factory):
         if key not in found:
             bed = read_preset(preset)
             program = translated(method, law, bed, TARGET)
-            files = files_of(program, SimulatedBench(bed, 1))
+            files = files_of(program, board_templates(), SimulatedBench(bed, 1))
             found[key] = (written(tmp_path_factory.mktemp("c") / "-".join(key), files), program)
         return found[key]
 

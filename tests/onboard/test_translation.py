@@ -1,6 +1,7 @@
 """What is translated gives the same numbers in C, bit for bit; what cannot be is refused."""
 
 import math
+import re
 import struct
 import subprocess
 from typing import NamedTuple
@@ -8,16 +9,20 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from equipoise.onboard.sources.header import REAL
-from equipoise.onboard.sources.source import MACROS
+from equipoise.app.runs.generation import board_templates
+from equipoise.onboard.translation.functions import new_unit
 from equipoise.onboard.translation.literals import real_literal
-from equipoise.onboard.translation.unit import NotTranslatable, Unit
+from equipoise.onboard.translation.unit import NotTranslatable
 from equipoise.onboard.translation.values import ArrayType, RecordType, Scalar, known_type
 from tests.support.c_program import COMPILER, LONGEST, STRICT, needs_compiler
 
 SIX = ArrayType(Scalar.REAL, (6,))
 THREES = ArrayType(Scalar.REAL, (2, 3))
 GAIN = 0.1
+REAL, MACROS = (
+    re.search(r"#ifdef EQUIPOISE_FLOAT\n.*?#endif\n", board_templates()[name], re.DOTALL)[0]
+    for name in ("equipoise.h", "equipoise.c")
+)
 
 
 class Rig(NamedTuple):
@@ -101,7 +106,7 @@ def rigged(x, out, rig=None):
 
 def program_of(function, more):
     """Return a program in C that prints what a function makes of six numbers, bit by bit."""
-    unit = Unit()
+    unit = new_unit()
     entry = unit.instance(function, {"x": SIX, "out": SIX, **more})
     given = {"x": "x", "out": "out", "rig_m": "m"}
     call = f"{entry.name}({', '.join(given[leaf.name] for leaf in entry.leaves)});"
@@ -157,7 +162,7 @@ def test_c_gives_the_same_bits_as_python(function, tmp_path):
 
 
 def test_a_switch_that_is_off_leaves_no_branch():
-    unit = Unit()
+    unit = new_unit()
     fields = (("m", THREES), ("doubled", known_type(False)), ("size", known_type(0.3)))
     entry = unit.instance(rigged, {"x": SIX, "out": SIX, "rig": RecordType(Rig, fields)})
     text = unit.text_for(entry.name, "")
@@ -168,7 +173,7 @@ def test_a_switch_that_is_off_leaves_no_branch():
 
 
 def test_what_is_only_read_is_const_and_what_is_not_read_is_not_passed():
-    unit = Unit()
+    unit = new_unit()
     entry = unit.instance(swapped, {"x": SIX, "out": SIX})
     assert "const real_t *x, real_t *out" in unit.text_for(entry.name, "")
 
@@ -191,7 +196,7 @@ def with_a_try(x, out):
 @pytest.mark.parametrize("function", [with_a_list, with_a_string, with_a_try])
 def test_what_has_no_counterpart_is_refused_with_its_line(function):
     with pytest.raises(NotTranslatable, match="line 2"):
-        Unit().instance(function, {"x": SIX, "out": SIX})
+        new_unit().instance(function, {"x": SIX, "out": SIX})
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ import numpy as np
 from equipoise.model.arrays import Vector3
 from equipoise.model.testbed import Testbed
 from equipoise.onboard.program.board import Board, Memory, board_of, on_row
+from equipoise.onboard.translation.functions import new_unit
 from equipoise.onboard.translation.literals import literal, real_literal
 from equipoise.onboard.translation.unit import Leaf, Unit, class_of, followed
 from equipoise.onboard.translation.values import (
@@ -77,7 +78,7 @@ def memory_type(thing: Any) -> Type:
 def translated(method: str, law: str, testbed: Testbed, target: Vector3) -> Translated:
     """Return a method and a law for a testbed in C."""
     board, memory = board_of(method, law, testbed, target)
-    unit, masses = Unit(), len(testbed.masses)
+    unit, masses = new_unit(), len(testbed.masses)
     constants = unit.lifted(board)
     real, (q, rate, d) = Scalar.REAL, (ArrayType(Scalar.REAL, (n,)) for n in (4, 3, masses))
     kinds = {OWN: type_of(constants), MEMORY: memory_type(memory),

@@ -11,7 +11,7 @@ import re
 import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -36,9 +36,6 @@ from equipoise.onboard.translation.values import (
     type_of,
     widened,
 )
-
-if TYPE_CHECKING:
-    from equipoise.onboard.translation.expressions import Expressions
 
 PREFIX = "eq_"
 NOTHING = known_type(None)
@@ -74,10 +71,26 @@ class Instance:
     written: frozenset[str]  # names of arrays that it changes
 
 
+class Scope(Protocol):
+    """What a unit needs of the function that calls another."""
+
+    shared: list[set[str]]
+    calls_writer: bool
+
+    def as_type(self, value: Value, kind: Type) -> str:
+        """Return a value as a C expression of a type."""
+        ...
+
+    def write(self, array: Code) -> None:
+        """Note that an array is changed."""
+        ...
+
+
 @dataclass(slots=True)
 class Unit:
-    """The text of a unit, as it grows."""
+    """The text of a unit, as it grows; ``write`` writes one function (``functions``)."""
 
+    write: Callable[["Unit", Callable[..., Any], dict[str, Type]], Instance]
     names: list[str] = field(default_factory=list[str])  # of the functions, in their order
     functions: list[str] = field(default_factory=list[str])
     structs: dict[Type, tuple[str, str]] = field(default_factory=dict[Type, tuple[str, str]])
@@ -123,7 +136,7 @@ class Unit:
         index %= len(kind.items)
         return f".v[{index}]" if kind.is_even else f".f{index}"
 
-    def share(self, scope: "Expressions", roots: list[str]) -> None:
+    def share(self, scope: "Scope", roots: list[str]) -> None:
         """Note that arrays stand for each other: what writes one may write all."""
         scope.shared.append(set(roots))
 
@@ -167,7 +180,7 @@ class Unit:
 
     def call(
         self,
-        scope: "Expressions",
+        scope: "Scope",
         function: Callable[..., Any],
         arguments: list[Value],
         named: dict[str, Value],
@@ -201,11 +214,9 @@ class Unit:
 
     def instance(self, function: Callable[..., Any], kinds: dict[str, Type]) -> Instance:
         """Return a function for these types of arguments."""
-        from equipoise.onboard.translation.statements import written_function
-
         key = (function, tuple(kinds.items()))
         if key not in self.instances:
-            self.instances[key] = written_function(self, function, kinds)
+            self.instances[key] = self.write(self, function, kinds)
         return self.instances[key]
 
     def text_for(self, entry: str, call: str) -> str:
