@@ -10,7 +10,7 @@ BOARDS = (
 )
 # Bytes of stack, chosen: above what gcc -Os says of either law, in single precision with pointers
 # of 64 bits. A processor with shorter pointers takes less.
-STACK = {"ekf_9": 3072, "momentum_recursive": 512}
+STACK = {"ekf_9": 3072, "momentum_recursive": 640}
 
 
 def verdicts(found: Translated) -> list[str]:
