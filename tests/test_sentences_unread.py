@@ -21,7 +21,9 @@ READING = {
 }  # fmt: skip
 MATCHING = {"match", "search", "fullmatch", "findall", "finditer", "sub", "split", "get"}
 LAYOUT = {
-    ("onboard/sources/filled.py", "filled"),  # placeholders of C files("app/console/terminal.py", "complain")}  # joins the lines of an error to one
+    ("app/console/terminal.py", "complain"),  # joins the lines of an error to one
+    ("onboard/sources/filled.py", "filled"),  # placeholders of files in C
+}
 FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 
 

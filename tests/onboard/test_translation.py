@@ -98,7 +98,7 @@ def rigged(x, out, rig=None):
     for i in range(2):
         for j in range(3):
             out[3 * i + j] = rig.m[i, j] * turned + matrix[i, 0]
-    if rig.doubled:
+    if rig.doubled and x[0] > -1.0:
         out[0] *= 2
     rig.m[1, 2] = math.atan2(x[1], x[2])
     out[5] += rig.m[1, 2]
