@@ -167,7 +167,7 @@ CONTROL = _of(
      "multiply(conjugate(target), q)", "control/elements/test_attitude_pid.py"),
     ("laws/ivanov_25s.py", "shift=target - estimate.com", "shift=target + estimate.com",
      "control/laws/test_ivanov_25s.py"),
-    ("laws/ivanov_25s.py", "EVERY * state.moves + (", "EVERY * (",
+    ("laws/ivanov_25s.py", "EVERY * moves + (", "EVERY * (",
      "control/laws/test_ivanov_25s.py"),
     ("elements/tilt_feedback.py", "gamma, 2 * ZETA * frequency * J", "gamma, ZETA * frequency * J",
      "control/elements/test_tilt_feedback.py"),
@@ -211,12 +211,24 @@ CONTROL = _of(
     ("laws/fully_actuated.py", "state.shift - params.adaption * params.mass * total",
      "state.shift + params.adaption * params.mass * total",
      "control/laws/test_fully_actuated.py::test_masses_move_as_printed"),
-    ("plant/settling.py", "bounds.rate * share**0.5", "bounds.rate * share",
+    ("plant/moving_means.py", "bounds.rate * share**0.5", "bounds.rate * share",
      "control/plant/test_settling.py"),
     ("plant/actuator_limits.py", "vector if size <= most else", "vector if size >= most else",
      "control/plant/test_actuator_limits.py"),
-    ("plant/pendulum.py", "cross(plant.axes.T @ v, plant.up)",
-     "cross(plant.up, plant.axes.T @ v)", "control/plant/test_pendulum.py"),
+    ("plant/tilt_axes.py", "-(v[0] * a[1] + v[1] * b[1])", "(v[0] * a[1] + v[1] * b[1])",
+     "control/plant/test_pendulum.py"),
+    ("plant/tilt_axes.py", "size = -size_of(gravity)", "size = size_of(gravity)",
+     "control/plant/test_pendulum.py"),
+    ("plant/tilt_axes.py", "- d[k] * w[k] * w[k] * tilt[k]", "+ d[k] * w[k] * w[k] * tilt[k]",
+     "control/plant/test_pendulum.py"),
+    ("plant/moving_means.py", "share * (means[4 + k] - means[7 + k])",
+     "share * (means[7 + k] - means[4 + k])", "control/laws/test_pid.py"),
+    ("elements/tilt_pid.py", "(f * tilt[0] - left[0] / p[0])", "(f * tilt[0] + left[0] / p[0])",
+     "control/laws/test_pid.py"),
+    ("elements/height_step.py", "rise = along - inner", "rise = along + inner",
+     "control/laws/test_pid.py"),
+    ("elements/height_step.py", "- inner(up, com) - depth", "- inner(up, com) + depth",
+     "control/laws/test_pid.py onboard/test_laws.py"),
 )  # fmt: skip
 
 ASSESSMENT = _of(
@@ -284,6 +296,10 @@ ESTIMATION = (*_of(
         ("stretch_torque", "stretch_torque", "EPS * np.cross(at.g, axis)",
          "EPS * np.cross(axis, at.g)"),
     )),
+    ("regression/solvers/factored.py", "u - gain[i] * (h[j] / before)",
+     "u + gain[i] * (h[j] / before)", "onboard/test_methods.py"),
+    ("regression/solvers/factored.py", "gain[i] += v * u", "gain[i] -= v * u",
+     "onboard/test_methods.py"),
     ("output_error/kernels/gauss_newton.py", "cost += 0.5 * posed.coupling",
      "cost -= 0.5 * posed.coupling",
      "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
@@ -864,7 +880,46 @@ APP = _of(
      "normalised_difference(other, parameter) if", "app/charts/test_charts.py"),
 )  # fmt: skip
 
+ONBOARD = _of("onboard", *(
+    (f"translation/{file}.py", text, broken, "onboard/test_translation.py")
+    for file, text, broken in (
+        ("operations", 'Code(kind, f"(-{text})")', 'Code(kind, f"({text})")'),
+        ("operations", 'f"({b} {sign} {a} ? {b} : {a})"', 'f"({a} {sign} {b} ? {b} : {a})"'),
+        ("operations", "return Known(ends) if not found else",
+         "return Known(not ends) if not found else"),
+        ("elements", "terms, constant = list[str](), 0", "terms, constant = list[str](), 1"),
+        ("storing", "parts = [self.kept(p) if isinstance(p, Code) else p for p in parts]", "pass"),
+        ("statements", "node.body if truth else", "node.body if not truth else"),
+    )
+), (
+    "translation/unit.py", 'f".v[{index}]" if kind.is_even', 'f".v[0]" if kind.is_even',
+    "onboard/test_translation.py",
+), (
+    "translation/literals.py", "math.copysign(1.0, number) > 0", "number >= 0",
+    "onboard/test_translation.py",
+), *(
+    ("program/momentum_recursion.py", text, broken, "onboard/test_methods.py")
+    for text, broken in (
+        ("-size * bend", "size * bend"),
+        ("h[EQUATIONS + j] = -total[i, j]", "h[EQUATIONS + j] = total[i, j]"),
+        ("total[i, UNKNOWNS] - k[i]", "total[i, UNKNOWNS] + k[i]"),
+        ("weight[i] - swirl[i]", "weight[i] + swirl[i]"),
+    )
+), (
+    "program/camera_filter.py", "memory.travelling[k] and not moves", "memory.travelling[k]",
+    "onboard/test_methods.py",
+), (
+    "program/displacements.py", "/ rails.step[k] + 0.5)", "/ rails.step[k])",
+    "onboard/test_laws.py",
+), (
+    "program/level_by_pid.py", "shift[0] - requested[0], shift", "requested[0] - shift[0], shift",
+    "onboard/test_laws.py",
+), (
+    "program/moves_every_25s.py", "own.target[j] - out.com[j]", "own.target[j] + out.com[j]",
+    "onboard/test_laws.py",
+))  # fmt: skip
+
 MUTANTS = (
     *MODEL, *MATHS, *ACTUATORS, *SENSORS, *DYNAMICS, *CONTROL, *ASSESSMENT, *ESTIMATION,
-    *SIMULATION, *DESIGN, *PROCEDURE, *STUDY, *IO, *HARDWARE, *APP,
+    *SIMULATION, *DESIGN, *PROCEDURE, *STUDY, *IO, *HARDWARE, *APP, *ONBOARD,
 )  # fmt: skip
