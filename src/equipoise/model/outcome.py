@@ -44,6 +44,7 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
     OutcomeCode.MODEL_REJECTED: (
         Why.UNEXPLAINED_ATTITUDE,
         Why.UNEXPLAINED_RATE,
+        Why.UNEXPLAINED_ON_TABLE,
         Why.TOO_MANY_EVENTS,
         Why.LAY_ON_STOP,
         Why.UNKNOWN_TORQUE,
@@ -69,6 +70,8 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.TOO_FEW_ROWS_FOR_FILTER,
         Why.HARDLY_MOVED,
         Why.NO_CAMERA,
+        Why.NO_POSITION,
+        Why.BEARING_MOVES,
         Why.NO_ATTITUDE,
         Why.NO_GYRO,
         Why.NO_KNOWN_INPUT,
