@@ -33,8 +33,10 @@ from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.draw_truth import own_truth
 from equipoise.simulation.free_start import freely
+from equipoise.simulation.planar.planar_bench import PlanarBench
 
 HAND = 9  # chosen: sets the hand's draws apart from the bench's own, which spawn from the seed
+MadeBench = SimulatedBench | PlanarBench
 Moves = Sequence[tuple[float, Mapping[str, float]]]
 
 
@@ -67,11 +69,12 @@ def let_go(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Testbed:
     return replace(testbed, truth=truth)
 
 
-def bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> SimulatedBench:
-    """Return a bench whose platform is let go as planned, if there is a plan."""
+def bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> MadeBench:
+    """Return a bench whose platform is let go as planned, if there is a plan; on its table, too."""
+    kind = SimulatedBench if testbed.table is None else PlanarBench
     if manoeuvre is None:
-        return SimulatedBench(testbed, seed)
-    return SimulatedBench(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
+        return kind(testbed, seed)
+    return kind(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
 
 
 def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
@@ -84,12 +87,15 @@ def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
 
 def performed(
     testbed: Testbed, seed: int, manoeuvre: Manoeuvre | None, duration: float, moves: Moves = ()
-) -> tuple[SimulatedBench, Recording]:
+) -> tuple[MadeBench, Recording]:
     """Return a simulated bench and what it records: of a manoeuvre, else of ``duration`` seconds.
 
     The latter with masses sent to targets (m) at times (s) in order; the platform is let go so that
     it meets no stop, where it can be.
     """
+    if manoeuvre is None and testbed.table is not None:
+        bench = bench_for(testbed, None, seed)
+        return bench, recorded(bench, duration, moves)
     if manoeuvre is None:
         return freely(testbed, seed, lambda bench: recorded(bench, duration, moves))
     bench = bench_for(testbed, manoeuvre, seed)

@@ -143,11 +143,12 @@ def planar_slope(
     return found
 
 
-@part
-def momenta_from(
-    table: TableTop, now: Now, travel: Triple, w: Floats, v: Floats, y: Floats
-) -> None:
-    """Write L and Pi of a state whose attitude stands in ``y`` already."""
+@kernel
+def _write_momenta(
+    body: Body, table: TableTop, maps: Floats, t: Floats, known: Floats, w: Floats, v: Floats,
+    y: Floats,
+) -> None:  # fmt: skip
+    now, travel = body_at(body, maps, t, known, 0, 0.0), moment_rate(maps, t, known, 0)
     e, f = along(y, 0), along(y, 1)
     rate = (w[0], w[1], w[2])
     V = (v[0] * e[0] + v[1] * f[0], v[0] * e[1] + v[1] * f[1], v[0] * e[2] + v[1] * f[2])
@@ -161,20 +162,17 @@ def momenta_from(
 
 @kernel
 def _run_planar(
-    body: Body, table: TableTop, maps: Floats, t: Floats, known: Floats, q0: Floats, w0: Floats,
-    p0: Floats, v0: Floats, out: PlanarMotion,
+    body: Body, table: TableTop, maps: Floats, t: Floats, known: Floats, first: Floats,
+    out: PlanarMotion,
 ) -> None:  # fmt: skip
     y, at, dy, total = (np.empty(PLANAR_ROWS), np.empty(PLANAR_ROWS), np.empty(PLANAR_ROWS),
                         np.empty(PLANAR_ROWS))  # fmt: skip
     columns, last = np.zeros((3, WIDTH)), t.shape[0] - 2
+    for j in range(PLANAR_ROWS):
+        y[j] = first[j]
     for node in range(t.shape[0]):
         i, share = (last, 1.0) if node > last else (node, 0.0)
         now, travel = body_at(body, maps, t, known, i, share), moment_rate(maps, t, known, i)
-        if node == 0:
-            for j in range(4):
-                y[j] = q0[j]
-            y[P], y[P + 1] = p0[0], p0[1]
-            momenta_from(table, now, travel, w0, v0, y)
         moved = planar_slope(body, table, now, travel, y, columns, dy)
         for j in range(PLANAR_ROWS):
             out.state[node, j], out.leaving[node, j] = y[j], dy[j]
@@ -212,14 +210,30 @@ class Start(NamedTuple):
     velocity: Floats  # (2,) m/s
 
 
+def first_state(
+    body: Body, table: TableTop, maps: Floats, t: Floats, known: Floats, start: Start
+) -> Floats:
+    """Return the state (11,) of a start at the first of the nodes t (s) with ``known`` inputs."""
+    y = np.concatenate([start.q, np.zeros(3), start.position, np.zeros(2)])
+    _write_momenta(body, table, maps, t, known, start.rate, start.velocity, y)
+    return y
+
+
+def run_planar(
+    body: Body, table: TableTop, maps: Floats, t: Floats, known: Floats, first: Floats
+) -> PlanarMotion:
+    """Return the motion from a state (11,) on, at nodes that may also run backward."""
+    out = PlanarMotion(*[np.empty((len(t), k)) for k in (*[PLANAR_ROWS] * 3, 3, 2)])
+    _run_planar(body, table, maps, t, known, first, out)
+    return out
+
+
 def propagate_planar(
     body: Body, table: TableTop, maps: MassMaps, line: Timeline, start: Start
 ) -> PlanarMotion:
     """Return the motion at every node, by classical Runge-Kutta of order 4."""
-    n = len(line.t)
-    out = PlanarMotion(*[np.empty((n, k)) for k in (*[PLANAR_ROWS] * 3, 3, 2)])
-    _run_planar(body, table, stacked(maps), line.t, line.known, *start, out)
-    return out
+    within = (body, table, stacked(maps), line.t, line.known)
+    return run_planar(*within, first_state(*within, start))
 
 
 @kernel
