@@ -69,12 +69,18 @@ def let_go(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Testbed:
     return replace(testbed, truth=truth)
 
 
-def bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> MadeBench:
-    """Return a bench whose platform is let go as planned, if there is a plan; on its table, too."""
-    kind = SimulatedBench if testbed.table is None else PlanarBench
+def bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> SimulatedBench:
+    """Return a bench whose platform is let go as planned, if there is a plan."""
     if manoeuvre is None:
-        return kind(testbed, seed)
-    return kind(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
+        return SimulatedBench(testbed, seed)
+    return SimulatedBench(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
+
+
+def planar_bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> PlanarBench:
+    """Return the same of a platform whose bearing floats over a table."""
+    if manoeuvre is None:
+        return PlanarBench(testbed, seed)
+    return PlanarBench(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
 
 
 def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
@@ -93,9 +99,13 @@ def performed(
     The latter with masses sent to targets (m) at times (s) in order; the platform is let go so that
     it meets no stop, where it can be.
     """
-    if manoeuvre is None and testbed.table is not None:
-        bench = bench_for(testbed, None, seed)
-        return bench, recorded(bench, duration, moves)
+    if testbed.table is not None:
+        floating = planar_bench_for(testbed, manoeuvre, seed)
+        return floating, (
+            recorded(floating, duration, moves)
+            if manoeuvre is None
+            else carried_out(floating, manoeuvre)
+        )
     if manoeuvre is None:
         return freely(testbed, seed, lambda bench: recorded(bench, duration, moves))
     bench = bench_for(testbed, manoeuvre, seed)

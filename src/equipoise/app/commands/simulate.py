@@ -83,7 +83,7 @@ def _series(
     bed: "Testbed",
     seed: int,
     runs: int,
-    made: "Callable[[Testbed, int], tuple[SimulatedBench, Recording]]",
+    made: "Callable[[Testbed, int], tuple[MadeBench, Recording]]",
     out: Path,
 ) -> int:
     """Write the recordings of a series into a folder, all of them or none."""

@@ -23,8 +23,15 @@ from equipoise.estimation.parameters.flat_body import flat_reasons
 from equipoise.estimation.parameters.observability import Visibility, examine_unheld
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.estimation.planar.planar_fit import PlanarFit
-from equipoise.estimation.planar.planar_layout import INPUTS, POSITION, VELOCITY
-from equipoise.estimation.planar.planar_search import PlanarCase, searched
+from equipoise.estimation.planar.planar_layout import (
+    FRICTION_MEAN,
+    INPUTS,
+    NODE,
+    POSITION,
+    VELOCITY,
+    node_names,
+)
+from equipoise.estimation.planar.planar_search import PlanarCase, nodes_along, searched
 from equipoise.estimation.search_budget import cut_short
 from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import inverse_where, lag_one, unpack_symmetric
@@ -169,10 +176,14 @@ def parameters_of(
     problem, layout = fit.problem, fit.problem.layout
     names, values = reported(fit), fit.point.values.copy()
     values[layout.of(*ATTITUDE)] = logarithm(fit.point.q0)
-    rows = np.eye(layout.size)[layout.of(*names)]
+    rows, end = np.eye(layout.size)[layout.of(*names)], at_the_end(fit)
     labels = [(name, layout.unit(name)) for name in names]
-    shown, end = values[layout.of(*names)], at_the_end(fit)
     maps, mass = mass_maps(problem.testbed.masses), problem.testbed.body.mass
+    mean, first_node = np.zeros(layout.size), names.index(node_names(layout.nodes)[0])
+    mean[layout.friction] = nodes_along(problem, problem.position.rows.values).mean(axis=0)
+    rows = np.insert(rows, first_node, mean, axis=0)
+    labels.insert(first_node, (FRICTION_MEAN, layout.unit(NODE)))
+    shown = rows @ values
     if np.any(end):
         rows = np.vstack([rows, np.eye(layout.size)[layout.of(*COM)]])
         shown = np.append(shown, shown[: len(COM)] + com_shift(maps, mass, end))
@@ -182,6 +193,7 @@ def parameters_of(
     off_home = (start != 0).astype(float)
     covariance[:3, :3] += com_shift_covariance(maps, mass, accuracy, off_home)
     hidden = np.any(np.abs(rows[:, view.hidden]) > 0, axis=1)
+    hidden[first_node] = False  # the mean over the path is seen wherever nodes are not
     sd = np.where(hidden, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
     found = [
         Parameter(name, unit, float(shown[i]), float(sd[i]), not bool(hidden[i]))

@@ -66,6 +66,9 @@ class PlanarLayout:
         return UNITS[name] if name in UNITS else torque_terms.unit_of(name)
 
 
+FRICTION_MEAN = f"{NODE}_mean"  # over the rows of the position
+
+
 def node_names(nodes: int) -> tuple[str, ...]:
     """Return the names of the nodes: friction_x1_y1 at the corner of least x and y."""
     counted = range(1, nodes + 1)

@@ -1,0 +1,65 @@
+"""Friction and slope of a table as a picture shows them, from an estimate: c(x, y) and its sd.
+
+    c = phi(x, y)^T c_nodes,     sd^2 = phi^T P phi
+
+P has the wide priors of what the record does not show, so that c is uncertain there. A place counts
+as seen where the sd is below half of the mean friction along the path.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.dynamics.planar.friction_map import hat_functions
+from equipoise.estimation.planar.planar_layout import FRICTION_MEAN, NODE, SLOPE, node_names
+from equipoise.estimation.planar.planar_problem import grid_of
+from equipoise.model.arrays import Bools, Floats, Series, Series1
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+ALONG = 41  # places along each side of the table, chosen
+SEEN = 0.5  # of the mean friction, chosen: as for nodes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrictionField:
+    """A table from above, laboratory axes."""
+
+    x: Series1  # m
+    y: Series1  # m
+    friction: Floats  # (x, y) N s/m
+    sd: Floats  # (x, y) N s/m
+    seen: Bools  # (x, y)
+    slope: Floats  # (2,) rad, downhill
+    slope_sd: Floats  # (2,) rad
+    path: Series  # (n, 2) m, as measured
+
+
+def friction_field(
+    recording: Recording, testbed: Testbed, estimate: Estimate
+) -> FrictionField | None:
+    """Return the table of an estimate; None where the estimate has no friction map."""
+    table, rows = testbed.table, recording.position
+    if table is None or rows is None or not estimate.has(FRICTION_MEAN):
+        return None
+    nodes = sum(p.name.startswith(f"{NODE}_x") for p in estimate.parameters)
+    names = node_names(round(nodes**0.5))
+    x, y = (np.linspace(table.low[k], table.high[k], ALONG) for k in range(2))
+    places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+    side = round(nodes**0.5)
+    weights = hat_functions(grid_of(table, np.zeros((side, side))), places)
+    covariance = estimate.covariance_of(names)
+    variance = np.einsum("ni,ij,nj->n", weights, covariance, weights)
+    sd: Floats = np.sqrt(np.maximum(variance, 0.0)).reshape(ALONG, ALONG)
+    mean = abs(float(estimate.values((FRICTION_MEAN,))[0]))
+    return FrictionField(
+        x,
+        y,
+        (weights @ estimate.values(names)).reshape(ALONG, ALONG),
+        sd,
+        sd < SEEN * mean,
+        estimate.values(SLOPE),
+        np.sqrt(np.diag(estimate.covariance_of(SLOPE))),
+        rows.values,
+    )
