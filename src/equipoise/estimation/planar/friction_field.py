@@ -18,7 +18,8 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-ALONG = 41  # places along each side of the table, chosen
+ALONG = 81  # places along each side of the table, chosen
+MOST = 300  # places of a path, chosen: a line to the eye
 SEEN = 0.5  # of the mean friction, chosen: as for nodes
 
 
@@ -34,6 +35,7 @@ class FrictionField:
     slope: Floats  # (2,) rad, downhill
     slope_sd: Floats  # (2,) rad
     path: Series  # (n, 2) m, as measured
+    along_path: Series1  # (n,) N s/m, there
 
 
 def friction_field(
@@ -44,11 +46,12 @@ def friction_field(
     if table is None or rows is None or not estimate.has(FRICTION_MEAN):
         return None
     nodes = sum(p.name.startswith(f"{NODE}_x") for p in estimate.parameters)
-    names = node_names(round(nodes**0.5))
+    side = round(nodes**0.5)
+    names = node_names(side)
     x, y = (np.linspace(table.low[k], table.high[k], ALONG) for k in range(2))
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
-    side = round(nodes**0.5)
-    weights = hat_functions(grid_of(table, np.zeros((side, side))), places)
+    grid = grid_of(table, np.zeros((side, side)))
+    weights, path = hat_functions(grid, places), rows.values[:: max(len(rows) // MOST, 1)]
     covariance = estimate.covariance_of(names)
     variance = np.einsum("ni,ij,nj->n", weights, covariance, weights)
     sd: Floats = np.sqrt(np.maximum(variance, 0.0)).reshape(ALONG, ALONG)
@@ -61,5 +64,6 @@ def friction_field(
         sd < SEEN * mean,
         estimate.values(SLOPE),
         np.sqrt(np.diag(estimate.covariance_of(SLOPE))),
-        rows.values,
+        path,
+        hat_functions(grid, path) @ estimate.values(names),
     )

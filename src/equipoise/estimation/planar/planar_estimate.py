@@ -92,6 +92,8 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     terms = torque_terms.among((*testbed.disturbances, *options.terms))
     case = PlanarCase(recording, testbed, terms, options.hold, options.use_prior)
     fit = searched(case, options.budget)
+    if not np.all(np.isfinite(fit.normal)):
+        return refused(CARD, Why.NOT_CONVERGED)
     return cut_short(conclude(fit, recording), options.budget.unfinished, explained(fit))
 
 

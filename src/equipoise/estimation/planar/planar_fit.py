@@ -70,6 +70,7 @@ def local_model(problem: PlanarProblem, point: Point, left: Left) -> tuple[Squar
     return normal, descent
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of a step too far, which is not taken
 def settled(problem: PlanarProblem, start: Point, budget: Budget) -> PlanarFit:
     """Return the optimum that a search from ``start`` finds, or where it had to end."""
     turn, point = problem.layout.of(*ATTITUDE), start

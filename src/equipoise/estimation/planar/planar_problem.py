@@ -210,6 +210,8 @@ def possible(problem: PlanarProblem, values: Floats) -> bool:
     """Say whether some body has the inertia and the centre of mass of these unknowns."""
     layout = problem.layout
     J = unpack_symmetric(values[layout.of(*INERTIA)])
+    if not np.all(np.isfinite(values)):
+        return False
     return is_possible(MassProperties(problem.testbed.body.mass, values[layout.of(*COM)], J))
 
 
