@@ -38,6 +38,7 @@ from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.recording import Recording
 
 TRUST = 0.3  # relative sd given to the testbed's inertia, chosen: a first CAD model
+FIRM = 1e-3  # the same where the record makes it impossible, chosen
 BY_COM = 10.0  # sd given to its centre of mass, in stated sd, chosen: a guess may be far off
 CORRELATED = 5.0  # chosen: smoothed rates err together over some 25 rows, so rows count as fewer
 PLACE, SPEED, DOWNHILL, MOMENT, RUBBED = (
@@ -133,12 +134,23 @@ def plane_prior(problem: PlanarProblem, duration: float) -> tuple[Floats, Floats
 def about_p(
     problem: PlanarProblem, recording: Recording, motion: SampledMotion, plane: InPlane
 ) -> tuple[Floats, Vector3]:
-    """Return J xx yy zz xy xz yz and com of a body that can exist; else the testbed's J."""
-    testbed = problem.testbed
-    regressor, known = rotation_rows(problem, recording, motion, plane.velocity)
+    """Return J xx yy zz xy xz yz and com of a body that can exist, with J firm where need be."""
+    mass, rows = problem.testbed.body.mass, rotation_rows(problem, recording, motion, plane)
+    for trust in (TRUST, FIRM):
+        J, com = solved(problem, rows, plane, trust)
+        if is_possible(MassProperties(mass, com, unpack_symmetric(J))):
+            return J, com
+    return pack_symmetric(problem.testbed.body.inertia_P), problem.testbed.body.com
+
+
+def solved(
+    problem: PlanarProblem, rows: tuple[Floats, Floats], plane: InPlane, trust: float
+) -> tuple[Floats, Vector3]:
+    """Return J and com; ``trust`` is the relative sd given to the testbed's inertia."""
+    testbed, (regressor, known) = problem.testbed, rows
     mass, stated = testbed.body.mass, pack_symmetric(testbed.body.inertia_P)
     weight = np.zeros((12, 12))
-    weight[:6, :6] = np.diag((TRUST * element_sizes(testbed.body.inertia_P)) ** -2.0)
+    weight[:6, :6] = np.diag((trust * element_sizes(testbed.body.inertia_P)) ** -2.0)
     weight[6:9, 6:9] = plane.information * mass**2
     mean = np.concatenate([stated, plane.found[MOMENT] / mass, np.zeros(3)])
     first = np.linalg.lstsq(regressor[:, 9:], known - regressor[:, :9] @ mean[:9])[0]
@@ -149,19 +161,17 @@ def about_p(
         best = scaled_solve(normal, regressor.T @ known / noise**2 + weight @ mean, 0.0)
         left = known - regressor @ best
         noise = max(CORRELATED * float(np.sqrt(np.mean(left**2))), 1e-9)
-    J, com = unpack_symmetric(best[:6]), best[6:9]
-    sound = is_possible(MassProperties(mass, com, J))
-    return (best[:6], com) if sound else (stated, testbed.body.com)
+    return best[:6], best[6:9]
 
 
 def rotation_rows(
-    problem: PlanarProblem, recording: Recording, motion: SampledMotion, velocity: Series
+    problem: PlanarProblem, recording: Recording, motion: SampledMotion, plane: InPlane
 ) -> tuple[Floats, Floats]:
     """Return regressor (3 n, 12) and known side (3 n,) by J, com and H_0."""
     testbed, n = problem.testbed, len(motion.t)
     at = columns(recording, testbed, motion)
     A, b = laboratory_balance(motion.t, np.zeros(n, np.int64), at)
-    v: Series3 = np.column_stack([velocity, np.zeros(n)])
+    v: Series3 = np.column_stack([plane.velocity, np.zeros(n)])
     _, dmu = known_momentum(recording, testbed, motion.t, motion.w)
     unit = np.broadcast_to(np.eye(3), (n, 3, 3))
     by_com = testbed.body.mass * carried(motion, at.R, v, unit)
