@@ -117,7 +117,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         "0.05 deg, position 0.3 mm, gyro 0.02 deg/s, all at 50 Hz): intervals hold as stated."
     )
     notes = (
-        "Friction is bilinear between the corners of the table of 2 m, or in waves of 2 m and 3 m "
+        "Friction is bilinear between the corners of the table of 4 m, or in waves of 4 m and 6 m "
         "by a half up and down, which no map of the fit has exactly.",
     )
     rows = [*rows_of("bilinear friction", bilinear), *rows_of("friction in waves", waves)]

@@ -1,7 +1,7 @@
 """Flights of a platform over a table by MuJoCo, and what a laboratory knows beforehand.
 
 A platform of 4 to 40 kg hangs 1.5 to 4.5 mm below P, on a sled of 20 to 50 % of its mass, on a
-table of 2 m by 2 m that slopes by some 50 um/m. Friction at the corners is 0.02 to 0.2 N s/m. It
+table of 4 m by 4 m that slopes by some 50 um/m. Friction at the corners is 0.02 to 0.2 N s/m. It
 glides over the middle at 10 to 30 mm/s for a minute, swinging by 5 to 12 deg. Motion capture at
 50 Hz has 0.05 deg and 0.3 mm, the gyro 0.02 deg/s and a bias. The inertia is known to 10 %, the
 centre of mass not.
@@ -22,7 +22,8 @@ BELOW, DURATION = 3e-3, 60.0  # m, s
 CAMERA = AttitudeSensor(50.0, float(np.deg2rad(0.05)), plumb_sd=0.0)
 GYRO = Gyro(50.0, float(np.deg2rad(0.02)), float(np.deg2rad(0.3)))
 POSITION = PositionSensor(50.0, 3e-4)
-LOW, HIGH = np.array([-1.0, -1.0]), np.array([1.0, 1.0])
+HALF = 2.0  # m, of the table's sides
+LOW, HIGH = np.array([-HALF, -HALF]), np.array([HALF, HALF])
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +41,7 @@ def bilinear(corners: np.ndarray) -> planar_bench.Coefficient:
     """Return friction (N s/m) between four corners: low low, low high, high low, high high."""
 
     def at(x: float, y: float) -> float:
-        a, b = (min(max(0.5 * (z + 1.0), 0.0), 1.0) for z in (x, y))
+        a, b = (min(max(0.5 * (z / HALF + 1.0), 0.0), 1.0) for z in (x, y))
         near = (1 - a) * corners[0] + a * corners[2]
         far = (1 - a) * corners[1] + a * corners[3]
         return float((1 - b) * near + b * far)
@@ -49,10 +50,10 @@ def bilinear(corners: np.ndarray) -> planar_bench.Coefficient:
 
 
 def wavy(level: float, phases: np.ndarray) -> planar_bench.Coefficient:
-    """Return friction (N s/m) in waves of 2 m along x and 3 m along y, by a half up and down."""
+    """Return friction (N s/m) in waves of 4 m along x and 6 m along y, by a half up and down."""
 
     def at(x: float, y: float) -> float:
-        waves = np.sin(np.pi * x + phases[0]) * np.sin(2 * np.pi / 3 * y + phases[1])
+        waves = np.sin(np.pi / 2 * x + phases[0]) * np.sin(np.pi / 3 * y + phases[1])
         return float(level * (1 + 0.5 * waves))
 
     return at

@@ -199,13 +199,13 @@ def test_mujoco_has_the_same_motion(moves):
         SlidingMass(s.name, s.mass, s.home, s.axis, (-0.06, 0.06), 0.0, 0.0, 0.0, 0.01)
         for s in platform.slides
     ])  # fmt: skip
-    grid, k = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]]), np.arange(0, 10001, 25)
-    corners = np.array([floor.friction(*corner) for corner in grid]).reshape(2, 2)
+    half, k = planar_records.HALF, np.arange(0, 10001, 25)
+    corners = np.array([[floor.friction(x, y) for y in (-half, half)] for x in (-half, half)])
     x, y = floor.slope
     g = platform.gravity
     table = TableTop(
         platform.mass + floor.sled, (g * x, g * y), (g * x, g * y, -g * np.sqrt(1 - x * x - y * y)),
-        FrictionMap(-1.0, -1.0, 2.0, 2.0, corners),
+        FrictionMap(-half, -half, 2 * half, 2 * half, corners),
     )  # fmt: skip
     body = body_of(platform.mass, g, pack_symmetric(platform.inertia_P), platform.mass * platform.com)
     start = Start(platform.q, platform.rate, floor.position, floor.velocity)

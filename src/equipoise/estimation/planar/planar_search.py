@@ -3,14 +3,14 @@
 A wrong guess of the swings' period loses the motion after a few of them. So the first fits take a
 part of the record, with the linear guess as a weak prior, and each begins where the last one ended.
 
-Maps are refined node by node, 1 by 1, 2 by 2 and so on, as long as Akaike's criterion supports it,
+Maps are refined node by node, 2 by 2, 3 by 3 and so on. Akaike's criterion
 
-    chi^2 + 2 k    decreases by the refinement,    k: nodes
+    chi^2 + 2 k,    k: nodes
 
-and the first map that is not supported is kept. What a finer map could hold, and the record does
-not show, then widens the intervals. The coarser map has too narrow ones: a slope along the path and
-a friction that changes along it look alike, and 30 % of change can be missed and move the slope by
-several of its sd.
+is least for the map that the record supports. The map that is kept is two refinements finer. What
+it could hold, and the record does not show, then widens the intervals. The coarser map has too
+narrow ones: a slope along the path and a friction that changes along it look alike, and a change
+that is missed moves the slope by several of its sd.
 """
 
 from dataclasses import dataclass, replace
@@ -39,7 +39,8 @@ from equipoise.model.recording import Recording, window
 from equipoise.model.testbed import Testbed
 
 PARTS = (0.12, 0.25, 0.5)  # of the record, chosen: a few swings, then twice as many each time
-FIRST_MAP, FINEST = 2, 5  # nodes along an axis, chosen: of the search, and at most
+FIRST_MAP, FINEST = 2, 6  # nodes along an axis, chosen: of the search, and at most
+BEYOND = 2  # chosen: refinements beyond the map that is supported
 GUESS = 3  # nodes of the linear guess, chosen: a coarse map bends the path that moments are seen by
 RANK = 1e-2  # chosen: directions of nodes that the path hardly meets stay at the mean
 LEAST_COM = 1e-4  # m, chosen: sd of the linear guess of a centre of mass near P
@@ -65,18 +66,14 @@ class PlanarCase:
 
 
 def searched(case: PlanarCase, budget: Budget) -> PlanarFit:
-    """Return the fit in the map that the record supports, and one refinement more."""
-    start = grown(case, budget)
-    coarse = settled(case.problem(1), on_map(start, case.problem(1)), budget)
-    nodes, found = 1, coarse
-    while nodes < FINEST and budget.allows(Stage.MODELS):
-        nodes += 1
-        problem = case.problem(nodes)
-        finer = settled(problem, on_map(start if nodes == FIRST_MAP else found, problem), budget)
-        supported = akaike(finer) < akaike(found)
-        found = finer
-        if not supported:
+    """Return the fit in a map two refinements finer than the one that the record supports."""
+    found = best = grown(case, budget)
+    for nodes in range(FIRST_MAP + 1, FINEST + 1):
+        if nodes > best.problem.layout.nodes + BEYOND or not budget.allows(Stage.MODELS):
             break
+        problem = case.problem(nodes)
+        found = settled(problem, on_map(found, problem), budget)
+        best = found if akaike(found) < akaike(best) else best
     return found
 
 
