@@ -1,4 +1,4 @@
-"""A platform on a ball joint that a sled carries over a tilted table: MuJoCo as an independent truth.
+"""A platform on a ball joint that a sled carries over a tilted table, by MuJoCo: the truth.
 
 The table is level in its own axes, and gravity leans. Friction is a force on the sled, evaluated at
 every stage of MuJoCo's integrator: minus a coefficient, which changes over the table, times the
@@ -108,6 +108,6 @@ def planar_log(
     rate, turn, place = capture
     log = oracle.sensor_log(run.run, rng, rate, turn, gyro[0], gyro[1], bias)
     rows = oracle.every(run.run, rate)
-    seen = run.position[rows] + rng.normal(0.0, place, run.position[rows].shape)
+    places = run.position[rows] + rng.normal(0.0, place, run.position[rows].shape)
     masses = log.masses if run.run.platform.slides else None
-    return replace(log, position=Samples(run.run.t[rows].copy(), seen), masses=masses)
+    return replace(log, position=Samples(run.run.t[rows].copy(), places), masses=masses)

@@ -42,9 +42,9 @@ def bilinear(corners: np.ndarray) -> planar_bench.Coefficient:
 
     def at(x: float, y: float) -> float:
         a, b = (min(max(0.5 * (z / HALF + 1.0), 0.0), 1.0) for z in (x, y))
-        near = (1 - a) * corners[0] + a * corners[2]
-        far = (1 - a) * corners[1] + a * corners[3]
-        return float((1 - b) * near + b * far)
+        low = (1 - a) * corners[0] + a * corners[2]
+        high = (1 - a) * corners[1] + a * corners[3]
+        return float((1 - b) * low + b * high)
 
     return at
 
@@ -75,9 +75,7 @@ def gliding(rng: np.random.Generator, mass: float, duration: float) -> planar_be
     corners, heading = rng.uniform(0.02, 0.2, 4), rng.uniform(0, 2 * np.pi)
     velocity = rng.uniform(0.01, 0.03) * np.array([np.cos(heading), np.sin(heading)])
     slope = rng.normal(0, 5e-5, 2)
-    return planar_bench.Floor(
-        sled, slope, bilinear(corners), -0.5 * duration * velocity, velocity
-    )
+    return planar_bench.Floor(sled, slope, bilinear(corners), -0.5 * duration * velocity, velocity)
 
 
 def flight(seed: int, duration: float = DURATION, waves: bool = False) -> Flight:

@@ -207,7 +207,9 @@ def test_mujoco_has_the_same_motion(moves):
         platform.mass + floor.sled, (g * x, g * y), (g * x, g * y, -g * np.sqrt(1 - x * x - y * y)),
         FrictionMap(-half, -half, 2 * half, 2 * half, corners),
     )  # fmt: skip
-    body = body_of(platform.mass, g, pack_symmetric(platform.inertia_P), platform.mass * platform.com)
+    body = body_of(
+        platform.mass, g, pack_symmetric(platform.inertia_P), platform.mass * platform.com
+    )
     start = Start(platform.q, platform.rate, floor.position, floor.velocity)
     at = timeline(true.t[k], NONE, track, 3, 0.05)
     found = propagate_planar(body, table, rails, at, start)

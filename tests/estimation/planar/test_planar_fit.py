@@ -1,4 +1,4 @@
-"""A flight over a table, identified: known truths within their sd, and what a record cannot show."""
+"""A flight over a table, identified: known truths within their sd, and what stays open."""
 
 from dataclasses import replace
 
@@ -72,8 +72,8 @@ def test_friction_is_unknown_where_the_record_never_went(made, found):
     """A corner far from the path has an infinite sd, and no place in the picture."""
     field = friction_field(made.recording, made.testbed, found)
     assert field is not None
-    assert not field.seen.all()
-    assert field.seen.any()
+    assert not field.determined.all()
+    assert field.determined.any()
     true = np.array([made.floor.friction(*place) for place in field.path])
     assert np.abs(field.along_path - true).max() < 0.05  # N s/m, at the ends of the path
     nodes = [p for p in found.parameters if p.name.startswith("friction_x")]
@@ -90,7 +90,7 @@ def test_without_a_gyro_the_same_is_found(made):
     assert np.all(off(found, COM, made.platform.com) < SURE)
 
 
-def test_a_camera_whose_vertical_leans_is_told_from_the_slope(made):
+def test_a_camera_whose_vertical_leans_is_separated_from_the_slope(made):
     """Measured attitudes turned by a small angle about the laboratory's x: gravity leans there."""
     lean = 4e-3  # rad
     turned = oracle.product(oracle.rotation(np.array([lean, 0.0, 0.0])),
@@ -231,7 +231,7 @@ def test_a_push_in_the_middle_is_no_free_motion(made):
     assert not found.outcome.usable
 
 
-def test_a_spent_budget_ends_the_search_and_is_said(made):
+def test_a_spent_budget_ends_the_search_and_is_reported(made):
     spent = Budget(lambda: lambda: True)
     found = planar_estimate.run(made.recording, made.testbed, Options(budget=spent))
     assert not found.outcome.usable or found.outcome.warns

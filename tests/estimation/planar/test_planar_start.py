@@ -5,9 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.estimation.motion.sampled_motion import sampled_motion
 from equipoise.estimation.planar.planar_layout import POSITION, SLOPE, VELOCITY
 from equipoise.estimation.planar.planar_search import PlanarCase
-from equipoise.estimation.planar.planar_start import first_point
+from equipoise.estimation.planar.planar_start import (
+    carried,
+    first_point,
+    in_plane,
+    rotation_rows,
+)
+from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.recording import Samples
@@ -29,6 +36,38 @@ def guess():
     )
     problem = PlanarCase(exact, made.testbed, (), (), False).problem(2)
     return made, problem.layout, first_point(problem, exact)
+
+
+@pytest.fixture(scope="module")
+def integrals():
+    """The flight, its problem, its sampled motion, and what positions show."""
+    made = flight(5, 30.0)
+    problem = PlanarCase(made.recording, made.testbed, (), (), False).problem(2)
+    motion = sampled_motion(made.recording, made.testbed)
+    return made, problem, motion, in_plane(problem, made.recording, motion)
+
+
+def test_the_velocity_follows_along_the_whole_record(integrals):
+    made, _, _, plane = integrals
+    true = made.run.velocity[oracle.every(made.run.run, 50.0)]
+    assert np.ptp(true, axis=0).max() > 1e-3  # m/s
+    assert np.abs(plane.velocity - true).max() < 1e-3
+
+
+def test_the_momentum_about_p_closes_with_the_true_body(integrals):
+    """It leaves less than half of what it leaves without the motion of the sled."""
+    made, problem, motion, plane = integrals
+    rows, known = rotation_rows(problem, made.recording, motion, plane)
+    J, com = pack_symmetric(made.platform.inertia_P), made.platform.com
+
+    def left(by_com):
+        side = (known - rows[:, :6] @ J - by_com @ com).reshape(-1, 3)
+        return np.sqrt(np.mean((side - side.mean(axis=0)) ** 2))
+
+    R, v = to_matrix(motion.q), np.column_stack([plane.velocity, np.zeros(len(motion.t))])
+    unit = np.broadcast_to(np.eye(3), (len(motion.t), 3, 3))
+    moved = made.platform.mass * carried(motion, R, v, unit).reshape(-1, 3)
+    assert left(rows[:, 6:9]) < 0.5 * left(rows[:, 6:9] - moved)
 
 
 def test_first_moment_and_inertia_are_found(guess):

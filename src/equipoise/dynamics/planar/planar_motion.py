@@ -26,6 +26,7 @@ from equipoise.dynamics.regressor import WIDTH
 from equipoise.dynamics.rigid_body import KNOWN_D, Body, Now, body_at, cross, motion, times
 from equipoise.dynamics.timeline import Timeline
 from equipoise.maths.kernels.compiled import kernel, part
+from equipoise.maths.kernels.copying import copy_values
 from equipoise.model.arrays import Floats, Ints, Quaternion, Triple, Vector3
 
 PLANAR_ROWS = 11  # of the state: q, L, p, Pi
@@ -160,45 +161,70 @@ def _write_momenta(
     y[PI + 1] = table.floating_mass * v[1] + inner(f, flow)
 
 
+class StepWork(NamedTuple):
+    """Arrays that a step works in, made once."""
+
+    at: Floats  # (11,) the state within the step
+    dy: Floats
+    total: Floats
+    columns: Floats  # (3, WIDTH) the regressor
+
+
+@part
+def planar_step(
+    body: Body, table: TableTop, maps: Floats, t: Floats, known: Floats, i: int, y: Floats,
+    first: Floats, work: StepWork,
+) -> None:  # fmt: skip
+    """Take y over step i, in place; ``first`` is the slope at its beginning."""
+    h, travel = t[i + 1] - t[i], moment_rate(maps, t, known, i)
+    for j in range(PLANAR_ROWS):
+        work.total[j] = first[j]
+        work.at[j] = y[j] + 0.5 * h * first[j]
+    for k in range(1, 4):
+        share, weight = (1.0, 1.0) if k == 3 else (0.5, 2.0)
+        ahead = h if k == 2 else 0.5 * h
+        now = body_at(body, maps, t, known, i, share)
+        planar_slope(body, table, now, travel, work.at, work.columns, work.dy)
+        for j in range(PLANAR_ROWS):
+            work.total[j] += weight * work.dy[j]
+            work.at[j] = y[j] + ahead * work.dy[j]
+    for j in range(PLANAR_ROWS):
+        y[j] += h / 6 * work.total[j]
+    to_unit(y)
+
+
+@part
+def write_node(
+    body: Body, table: TableTop, maps: Floats, t: Floats, known: Floats, node: int, y: Floats,
+    out: PlanarMotion, columns: Floats,
+) -> None:  # fmt: skip
+    """Write the state at a node, its velocities, and the slope as the step that leaves it has it.
+
+    At the last node it is that of the step which ends there.
+    """
+    last = t.shape[0] - 2
+    i, share = (last, 1.0) if node > last else (node, 0.0)
+    now, travel = body_at(body, maps, t, known, i, share), moment_rate(maps, t, known, i)
+    moved = planar_slope(body, table, now, travel, y, columns, out.leaving[node])
+    copy_values(y, out.state[node])
+    out.rate[node, 0], out.rate[node, 1], out.rate[node, 2] = moved.w
+    out.velocity[node, 0], out.velocity[node, 1] = moved.v
+
+
 @kernel
 def _run_planar(
     body: Body, table: TableTop, maps: Floats, t: Floats, known: Floats, first: Floats,
     out: PlanarMotion,
 ) -> None:  # fmt: skip
-    y, at, dy, total = (np.empty(PLANAR_ROWS), np.empty(PLANAR_ROWS), np.empty(PLANAR_ROWS),
-                        np.empty(PLANAR_ROWS))  # fmt: skip
-    columns, last = np.zeros((3, WIDTH)), t.shape[0] - 2
-    for j in range(PLANAR_ROWS):
-        y[j] = first[j]
-    for node in range(t.shape[0]):
-        i, share = (last, 1.0) if node > last else (node, 0.0)
-        now, travel = body_at(body, maps, t, known, i, share), moment_rate(maps, t, known, i)
-        moved = planar_slope(body, table, now, travel, y, columns, dy)
-        for j in range(PLANAR_ROWS):
-            out.state[node, j], out.leaving[node, j] = y[j], dy[j]
-        for j in range(3):
-            out.rate[node, j] = moved.w[j]
-        out.velocity[node, 0], out.velocity[node, 1] = moved.v
-        if node > last:
-            break
-        h = t[i + 1] - t[i]
-        for j in range(PLANAR_ROWS):
-            total[j] = dy[j]
-            at[j] = y[j] + 0.5 * h * dy[j]
-        for k in range(1, 4):
-            share, weight = (1.0, 1.0) if k == 3 else (0.5, 2.0)
-            ahead = h if k == 2 else 0.5 * h
-            now = body_at(body, maps, t, known, i, share)
-            planar_slope(body, table, now, travel, at, columns, dy)
-            for j in range(PLANAR_ROWS):
-                total[j] += weight * dy[j]
-                at[j] = y[j] + ahead * dy[j]
-        for j in range(PLANAR_ROWS):
-            y[j] += h / 6 * total[j]
-        to_unit(y)
-        planar_slope(body, table, body_at(body, maps, t, known, i, 1.0), travel, y, columns, dy)
-        for j in range(PLANAR_ROWS):
-            out.arriving[node + 1, j] = dy[j]
+    work = StepWork(np.empty(PLANAR_ROWS), np.empty(PLANAR_ROWS), np.empty(PLANAR_ROWS),
+                    np.zeros((3, WIDTH)))  # fmt: skip
+    y = first.copy()
+    write_node(body, table, maps, t, known, 0, y, out, work.columns)
+    for i in range(t.shape[0] - 1):
+        planar_step(body, table, maps, t, known, i, y, out.leaving[i], work)
+        now, travel = body_at(body, maps, t, known, i, 1.0), moment_rate(maps, t, known, i)
+        planar_slope(body, table, now, travel, y, work.columns, out.arriving[i + 1])
+        write_node(body, table, maps, t, known, i + 1, y, out, work.columns)
 
 
 class Start(NamedTuple):
@@ -246,7 +272,7 @@ def _read_planar(
         i, s = (last, 1.0) if node[row] > last else (node[row], share[row])
         y = states[row]
         interpolate(motion.state[i], motion.leaving[i], motion.state[i + 1],
-                    motion.arriving[i + 1], t[i + 1] - t[i], s, spread, y)  # fmt: skip
+                    motion.arriving[i + 1], float(t[i + 1] - t[i]), s, spread, y)  # fmt: skip
         now, travel = body_at(body, maps, t, known, i, s), moment_rate(maps, t, known, i)
         w = velocities_of(table, now, travel, y).w
         for j in range(3):

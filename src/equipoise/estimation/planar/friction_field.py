@@ -3,7 +3,7 @@
     c = phi(x, y)^T c_nodes,     sd^2 = phi^T P phi
 
 P has the wide priors of what the record does not show, so that c is uncertain there. A place counts
-as seen where the sd is below half of the mean friction along the path.
+as determined where the sd is below half of the mean friction along the path.
 """
 
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from equipoise.model.testbed import Testbed
 
 ALONG = 81  # places along each side of the table, chosen
 MOST = 300  # places of a path, chosen: a line to the eye
-SEEN = 0.5  # of the mean friction, chosen: as for nodes
+DETERMINED = 0.5  # of the mean friction, chosen: as for nodes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,7 +31,7 @@ class FrictionField:
     y: Series1  # m
     friction: Floats  # (x, y) N s/m
     sd: Floats  # (x, y) N s/m
-    seen: Bools  # (x, y)
+    determined: Bools  # (x, y)
     slope: Floats  # (2,) rad, downhill
     slope_sd: Floats  # (2,) rad
     path: Series  # (n, 2) m, as measured
@@ -48,8 +48,9 @@ def friction_field(
     nodes = sum(p.name.startswith(f"{NODE}_x") for p in estimate.parameters)
     side = round(nodes**0.5)
     names = node_names(side)
-    x, y = (np.linspace(table.low[k], table.high[k], ALONG) for k in range(2))
-    places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+    x: Series1 = np.linspace(float(table.low[0]), float(table.high[0]), ALONG)
+    y: Series1 = np.linspace(float(table.low[1]), float(table.high[1]), ALONG)
+    places: Series = np.column_stack([np.repeat(x, ALONG), np.tile(y, ALONG)])
     grid = grid_of(table, np.zeros((side, side)))
     weights, path = hat_functions(grid, places), rows.values[:: max(len(rows) // MOST, 1)]
     covariance = estimate.covariance_of(names)
@@ -61,7 +62,7 @@ def friction_field(
         y,
         (weights @ estimate.values(names)).reshape(ALONG, ALONG),
         sd,
-        sd < SEEN * mean,
+        sd < DETERMINED * mean,
         estimate.values(SLOPE),
         np.sqrt(np.diag(estimate.covariance_of(SLOPE))),
         path,

@@ -5,13 +5,13 @@
 
 over first attitude, rate, position and velocity, J, com, the slope of the table, the lean of the
 attitude's vertical from its normal, torques, the gyro's bias and a friction map
-(``dynamics.planar``). The platform drags the sled to and fro: mu / M is seen, so that free motion
+(``dynamics.planar``). The platform drags the sled along: that shows mu / M, so that free motion
 fixes the scale of J and com, as M is weighed. It fixes it well where mu is large: its sd there is
 that of a position over sqrt(rows), times M, over sqrt(tilt^2).
 
 Cannot see friction where the record never went; a constant force in the plane beside the slope; a
-pad that scrapes; the sled's own rotation; errors of displacement of moving masses. Air that blows on
-the platform is no process noise here: what it leaves widens the intervals.
+pad that scrapes; the sled's own rotation; errors of displacement of moving masses. Air that
+blows on the platform is no process noise here: what it leaves widens the intervals.
 """
 
 import numpy as np
@@ -110,15 +110,15 @@ def residual_of(fit: PlanarFit) -> Residual:
     problem, left = fit.problem, fit.left
     camera, gyro = problem.attitude, problem.rate
     unknowns = int(np.sum(~problem.prior.held))
-    seen = (left.attitude, left.position)
+    channels = (left.attitude, left.position)
     return Residual(
         float(np.sqrt(np.mean(left.attitude**2))) * camera.sd,
         float(np.sqrt(np.mean(left.rate**2))) * gyro.sd if len(left.rate) else None,
         fit.chi_square,
         max(problem.rows - unknowns, 1),
         lag_one(left.attitude),
-        min(portmanteau(each) for each in seen),
-        spectral_peak=max(spectral_peak(each) for each in seen),
+        min(portmanteau(each) for each in channels),
+        spectral_peak=max(spectral_peak(each) for each in channels),
         attitude=Samples(camera.rows.t, left.attitude * camera.sd),
         rate=Samples(gyro.rows.t, left.rate * gyro.sd) if len(left.rate) else None,
     )
@@ -139,7 +139,7 @@ def visibility_of(fit: PlanarFit) -> Visibility:
 def natural_now(fit: PlanarFit) -> Floats:
     """Return natural sizes as the fit has them: the inertia, the distance and the friction found.
 
-    A node of the map counts as seen where its sd is below half of the mean friction of all nodes.
+    A node of the map counts as observable where its sd is below half of the mean friction of all nodes.
     """
     problem, values = fit.problem, fit.point.values
     layout, size = problem.layout, problem.size.copy()
@@ -195,7 +195,7 @@ def parameters_of(
     off_home = (start != 0).astype(float)
     covariance[:3, :3] += com_shift_covariance(maps, mass, accuracy, off_home)
     hidden = np.any(np.abs(rows[:, view.hidden]) > 0, axis=1)
-    hidden[first_node] = False  # the mean over the path is seen wherever nodes are not
+    hidden[first_node] = False  # the record shows the mean over its path in any case
     sd = np.where(hidden, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
     found = [
         Parameter(name, unit, float(shown[i]), float(sd[i]), not bool(hidden[i]))
@@ -234,7 +234,7 @@ def outcome_of(fit: PlanarFit, residual: Residual, view: Visibility, factor: flo
 
 
 def conclude(fit: PlanarFit, recording: Recording) -> Estimate:
-    """Return the estimate. Units are SI; ``com_end`` is with the masses as they stand at the end."""
+    """Return the estimate in SI; ``com_end`` is with the masses as they stand at the end."""
     layout, view, residual = fit.problem.layout, visibility_of(fit), residual_of(fit)
     factor, masses = widening(residual), fit.problem.testbed.masses
     rows = recording.masses

@@ -94,4 +94,3 @@ def settled(problem: PlanarProblem, start: Point, budget: Budget) -> PlanarFit:
             normal, descent = local_model(problem, point, left)
     square = float(np.sum(left.flat**2))
     return PlanarFit(problem, point, left, normal, square, cost, converged)
-

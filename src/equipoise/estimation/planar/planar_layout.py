@@ -152,4 +152,3 @@ def planar_prior(
     held = exact | np.isin(layout.names, hold)
     weight = np.where(exact, 0.0, np.where(exact, 1.0, sd) ** -2.0)
     return PlanarPrior(stated_values(layout, testbed), weight + anchor, anchor, held)
-

@@ -256,4 +256,3 @@ def sensitivities(problem: PlanarProblem, point: Point, left: Left) -> Floats:
         out[:, k] = left_of(problem, replace(point, values=values)).flat - here
         out[:, k] /= STEP * problem.size[k]
     return out
-

@@ -79,7 +79,7 @@ def searched(case: PlanarCase, budget: Budget) -> PlanarFit:
 
 def akaike(fit: PlanarFit) -> float:
     """Return chi^2 + 2 k, but for what all maps have in common."""
-    return fit.chi_square + 2.0 * fit.problem.layout.nodes ** 2
+    return fit.chi_square + 2.0 * fit.problem.layout.nodes**2
 
 
 def grown(case: PlanarCase, budget: Budget) -> PlanarFit:
@@ -118,7 +118,7 @@ def moved_to(point: Point, before: PlanarProblem, after: PlanarProblem) -> Point
     path = before.position.rows.values
     along = nodes_along(before, path) @ point.values[before.layout.friction]
     weights, mean = nodes_along(after, path), float(np.mean(along))
-    rest: Floats = np.linalg.lstsq(weights, along - mean, rcond=RANK)[0]
+    rest = np.linalg.lstsq(weights, along - mean, rcond=RANK)[0].astype(np.float64, copy=False)
     values = np.append(point.values[: before.layout.friction.start], mean + rest)
     return Point(point.q0, values)
 

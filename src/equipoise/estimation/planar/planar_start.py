@@ -110,7 +110,7 @@ def in_plane(problem: PlanarProblem, recording: Recording, motion: SampledMotion
     found = scaled_solve(data + np.diag(weight), right + weight * toward, 0.0)
     left = rows_A @ found - known.ravel() / sd  # more than noise where the map is too coarse
     normal = data / max(float(np.mean(left**2)), 1.0) + np.diag(weight)
-    momentum = found[SPEED] + mass * testbed.gravity * found[DOWNHILL] * t[:, None]
+    momentum: Series = found[SPEED] + mass * testbed.gravity * found[DOWNHILL] * t[:, None]
     momentum = momentum - once @ found[RUBBED]
     turning = np.einsum("nij,nj->ni", R[:, :2], np.cross(motion.w, found[MOMENT] + dmu))
     own, everything = range(*MOMENT.indices(len(normal))), range(len(normal))
@@ -153,14 +153,14 @@ def solved(
     weight[:6, :6] = np.diag((trust * element_sizes(testbed.body.inertia_P)) ** -2.0)
     weight[6:9, 6:9] = plane.information * mass**2
     mean = np.concatenate([stated, plane.found[MOMENT] / mass, np.zeros(3)])
-    first = np.linalg.lstsq(regressor[:, 9:], known - regressor[:, :9] @ mean[:9])[0]
-    left = known - regressor @ np.append(mean[:9], first)
-    noise = max(CORRELATED * float(np.sqrt(np.mean(left**2))), 1e-9)
-    for _ in range(2):  # the first noise is that of a wrong body
-        normal = regressor.T @ regressor / noise**2 + weight
-        best = scaled_solve(normal, regressor.T @ known / noise**2 + weight @ mean, 0.0)
+    free, toward = regressor[:, 9:], known - regressor[:, :9] @ mean[:9]
+    first = np.linalg.lstsq(free, toward)[0].astype(np.float64, copy=False)
+    best = np.append(mean[:9], first)
+    for _ in range(3):  # the first noise is that of a wrong body
         left = known - regressor @ best
         noise = max(CORRELATED * float(np.sqrt(np.mean(left**2))), 1e-9)
+        normal = regressor.T @ regressor / noise**2 + weight
+        best = scaled_solve(normal, regressor.T @ known / noise**2 + weight @ mean, 0.0)
     return best[:6], best[6:9]
 
 
@@ -175,9 +175,9 @@ def rotation_rows(
     _, dmu = known_momentum(recording, testbed, motion.t, motion.w)
     unit = np.broadcast_to(np.eye(3), (n, 3, 3))
     by_com = testbed.body.mass * carried(motion, at.R, v, unit)
-    A = np.concatenate([A[:, :, :6], A[:, :, 6:9] + by_com, -unit], axis=2)
-    b = b - carried(motion, at.R, v, dmu[:, :, None])[:, :, 0]
-    return A.reshape(-1, 12), b.reshape(-1)
+    whole = np.concatenate([A[:, :, :6], A[:, :, 6:9] + by_com, -unit], axis=2)
+    known = b - carried(motion, at.R, v, dmu[:, :, None])[:, :, 0]
+    return whole.reshape(-1, 12), known.reshape(-1)
 
 
 def carried(motion: SampledMotion, R: Floats, v: Series3, moments: Floats) -> Floats:

@@ -13,8 +13,8 @@ from equipoise.io.testbed.hardware import (
     check_moved_masses,
 )
 from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
-from equipoise.io.testbed.true_surroundings import check_true_lamp, check_true_rows
 from equipoise.io.testbed.table_top import Position, TableTop, check_table
+from equipoise.io.testbed.true_surroundings import check_true_lamp, check_true_rows
 from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
 from equipoise.io.testbed.vector_sensors import Accelerometer, Magnetometer, Sun
 from equipoise.io.testbed.weights import Weight, WeightGrid, check_weights

@@ -102,7 +102,7 @@ class PlanarBench:
         recording = self._recording(t, motion, after, since)
         behind = self._time - self._lead
         whole = np.append(multiples(1.0, self._node, behind), self._node)
-        kept = int(np.searchsorted(t, whole.max()))
+        kept = int(np.searchsorted(t, float(whole.max())))
         self._node, self._state = float(t[kept]), motion.state[kept]
         self._track = actuator.without_past(self._track, self._node - self.platform.truth.mass_lag)
         return recording
@@ -127,7 +127,9 @@ class PlanarBench:
         """Return the mass properties as masses really stand now."""
         body, real = self.platform.body, self._real(np.array([self._time]))[0]
         inertia = body.inertia_P + unpack_symmetric(inertia_shift(self._rails, real))
-        return MassProperties(body.mass, body.com + com_shift(self._rails, body.mass, real), inertia)
+        return MassProperties(
+            body.mass, body.com + com_shift(self._rails, body.mass, real), inertia
+        )
 
     def _command(self, travel: actuator.Travel) -> None:
         self._travel = travel
@@ -164,9 +166,7 @@ class PlanarBench:
         maps = stacked(self._rails)
         return run_planar(self._body, self._top, maps, t, self._known(t), self._state)
 
-    def _recording(
-        self, t: Series1, motion: PlanarMotion, after: float, since: float
-    ) -> Recording:
+    def _recording(self, t: Series1, motion: PlanarMotion, after: float, since: float) -> Recording:
         """Return the rows stamped after a time (s), masses since a time (s)."""
         testbed, masses = self.testbed, None
         if testbed.masses:

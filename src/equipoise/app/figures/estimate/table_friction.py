@@ -1,4 +1,4 @@
-"""A planar table from above: its friction map, where it slopes down, and the path of the bearing."""
+"""A planar table from above: its friction map, its slope, and the path of the bearing."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ def draw(field: FrictionField) -> Figure:
     figure = laid_out(5.4, 4.4)
     axes, beside = figure.subplots(1, 2, width_ratios=(24, 1))
     x, y = field.x / MM, field.y / MM
-    shown = np.ma.masked_where(~field.seen, field.friction).T
+    shown = np.ma.masked_where(~field.determined, field.friction).T
     low, high = float(field.along_path.min()), float(field.along_path.max())
     colours = {"cmap": "cividis", "vmin": low, "vmax": max(high, 1.01 * low)}
     drawn = axes.pcolormesh(x, y, shown, shading="nearest", **colours)
