@@ -273,8 +273,8 @@ ASSESSMENT = _of(
 
 ESTIMATION = (*_of(
     "estimation",
-    ("planar/planar_start.py", "momentum = momentum - once @ found[RUBBED]",
-     "momentum = momentum + once @ found[RUBBED]",
+    ("planar/planar_start.py", "found[SPEED] + pulled - once @ found[RUBBED]",
+     "found[SPEED] + pulled + once @ found[RUBBED]",
      "estimation/planar/test_planar_start.py"),
     ("planar/planar_start.py", "A[:, :, 6:9] + by_com", "A[:, :, 6:9] - by_com",
      "estimation/planar/test_planar_start.py"),

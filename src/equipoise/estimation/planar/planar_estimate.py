@@ -139,7 +139,7 @@ def visibility_of(fit: PlanarFit) -> Visibility:
 def natural_now(fit: PlanarFit) -> Floats:
     """Return natural sizes as the fit has them: the inertia, the distance and the friction found.
 
-    A node of the map counts as observable where its sd is below half of the mean friction of all nodes.
+    A node of the map counts as observable where its sd is below half of the mean of all nodes.
     """
     problem, values = fit.problem, fit.point.values
     layout, size = problem.layout, problem.size.copy()

@@ -110,12 +110,13 @@ def in_plane(problem: PlanarProblem, recording: Recording, motion: SampledMotion
     found = scaled_solve(data + np.diag(weight), right + weight * toward, 0.0)
     left = rows_A @ found - known.ravel() / sd  # more than noise where the map is too coarse
     normal = data / max(float(np.mean(left**2)), 1.0) + np.diag(weight)
-    momentum: Series = found[SPEED] + mass * testbed.gravity * found[DOWNHILL] * t[:, None]
-    momentum = momentum - once @ found[RUBBED]
-    turning = np.einsum("nij,nj->ni", R[:, :2], np.cross(motion.w, found[MOMENT] + dmu))
+    pulled: Series = mass * testbed.gravity * found[DOWNHILL] * t[:, None]
+    momentum: Series = found[SPEED] + pulled - once @ found[RUBBED]
+    turning: Series = np.einsum("nij,nj->ni", R[:, :2], np.cross(motion.w, found[MOMENT] + dmu))
     own, everything = range(*MOMENT.indices(len(normal))), range(len(normal))
     others = [k for k in everything if k not in own]
-    return InPlane(found, schur_complement(normal, own, others), (momentum - turning) / mass)
+    velocity: Series = (momentum - turning) / mass
+    return InPlane(found, schur_complement(normal, own, others), velocity)
 
 
 def plane_prior(problem: PlanarProblem, duration: float) -> tuple[Floats, Floats]:
@@ -174,14 +175,19 @@ def rotation_rows(
     v: Series3 = np.column_stack([plane.velocity, np.zeros(n)])
     _, dmu = known_momentum(recording, testbed, motion.t, motion.w)
     unit = np.broadcast_to(np.eye(3), (n, 3, 3))
-    by_com = testbed.body.mass * carried(motion, at.R, v, unit)
+    pull = testbed.gravity * np.append(plane.found[DOWNHILL], 0.0)
+    by_com = testbed.body.mass * carried(motion, v, pull, unit)
     whole = np.concatenate([A[:, :, :6], A[:, :, 6:9] + by_com, -unit], axis=2)
-    known = b - carried(motion, at.R, v, dmu[:, :, None])[:, :, 0]
+    known = b - carried(motion, v, pull, dmu[:, :, None])[:, :, 0]
     return whole.reshape(-1, 12), known.reshape(-1)
 
 
-def carried(motion: SampledMotion, R: Floats, v: Series3, moments: Floats) -> Floats:
-    """Return (R mu) x v + int v x R (w x mu) of first moments (n, 3, k), one a column."""
+def carried(motion: SampledMotion, v: Series3, pull: Vector3, moments: Floats) -> Floats:
+    """Return (R mu) x v + int v x R (w x mu) - int (R mu) x g s, g s being the pull downhill.
+
+    Of first moments (n, 3, k), one a column. A sled that slides freely loses the last two alike.
+    """
+    R = to_matrix(motion.q)
     turned, turning = R @ moments, R @ np.cross(motion.w[:, :, None], moments, axis=1)
-    flow = np.cross(v[:, :, None], turning, axis=1)
+    flow = np.cross(v[:, :, None], turning, axis=1) - np.cross(turned, pull[None, :, None], axis=1)
     return np.cross(turned, v[:, :, None], axis=1) + integral(motion.t, flow)
