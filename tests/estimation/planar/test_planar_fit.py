@@ -20,6 +20,7 @@ from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.estimate import COM, END, INERTIA, Estimate
 from equipoise.model.outcome import OutcomeCode
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.table_reasons import TableReason
 from equipoise.model.recording import window
 from equipoise.model.testbed import SlidingMass
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
@@ -200,7 +201,7 @@ def test_auto_takes_the_planar_fit_and_others_refuse_a_bearing_that_moves(made):
     assert last.estimate is not None
     assert last.estimate.method == "planar"
     refused = estimated(METHODS["trajectory"], made.recording, made.testbed, Options())
-    assert [r.code for r in refused.outcome.reasons] == [Why.BEARING_MOVES]
+    assert [r.code for r in refused.outcome.reasons] == [TableReason.BEARING_MOVES]
     assert not refused.outcome.usable
 
 
@@ -212,7 +213,7 @@ def test_without_positions_or_a_table_it_is_a_platform_on_a_fixed_bearing(made):
     ):
         assert not planar_estimate.moves_over_table(recording, bed)
     found = planar_estimate.run(placeless, made.testbed, Options())
-    assert [r.code for r in found.outcome.reasons] == [Why.NO_POSITION]
+    assert [r.code for r in found.outcome.reasons] == [TableReason.NO_POSITION]
 
 
 def test_a_few_rows_are_too_few(made):

@@ -55,6 +55,7 @@ from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome, outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason
+from equipoise.model.reasons.table_reasons import TableReason
 from equipoise.model.recording import Recording, Samples, arranged
 from equipoise.model.testbed import Testbed
 
@@ -82,7 +83,7 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     """Return the estimate."""
     lacking = (recording.attitude, recording.position, testbed.attitude, testbed.position)
     if testbed.table is None or any(each is None for each in lacking):
-        return refused(CARD, Why.NO_POSITION)
+        return refused(CARD, TableReason.NO_POSITION)
     assert recording.attitude is not None
     assert recording.position is not None
     fewest = min(len(recording.attitude), len(recording.position))
@@ -213,12 +214,12 @@ def outcome_of(fit: PlanarFit, residual: Residual, view: Visibility, factor: flo
     if not explained(fit):
         times = float(np.sqrt(residual.reduced_chi_square))
         attitude = {"attitude_rms": residual.attitude_rms or 0.0}
-        return outcome(Why.UNEXPLAINED_ON_TABLE, **attitude, **position, times=times)
+        return outcome(TableReason.UNEXPLAINED_ON_TABLE, **attitude, **position, times=times)
     attitude = {"attitude_rms": residual.attitude_rms or 0.0}
     found = [
         Reason(Why.EXPLAINED_ATTITUDE, (), attitude),
-        Reason(Why.EXPLAINED_POSITION, (), position),
-        Reason(Why.FRICTION_MAP, (), {"nodes": problem.layout.nodes}),
+        Reason(TableReason.EXPLAINED_POSITION, (), position),
+        Reason(TableReason.FRICTION_MAP, (), {"nodes": problem.layout.nodes}),
     ]
     if factor > 1:
         numbers = {"lag_one": residual.lag_one, "spectral_peak": residual.spectral_peak}

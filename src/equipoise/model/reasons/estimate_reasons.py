@@ -27,20 +27,6 @@ class EstimateReason(Code):
         "axis, {times:.2g} times the stated noise, with a lag-one autocorrelation of "
         "{lag_one:.2f} (white noise: 0). Unmodelled torques act; do not trust the intervals.",
     )
-    EXPLAINED_POSITION = (
-        "explained_position",
-        "Positions on the table scatter by {position_rms:mm .2g} mm rms per axis.",
-    )
-    UNEXPLAINED_ON_TABLE = (
-        "unexplained_on_table",
-        "The model does not explain the record: residuals are {times:.2g} times the stated noise "
-        "({attitude_rms:deg .3g} deg, {position_rms:mm .2g} mm rms). Use a part without pushes, "
-        "scraping pads or the table's edge.",
-    )
-    FRICTION_MAP = (
-        "friction_map",
-        "The friction map has {nodes:.0f} x {nodes:.0f} nodes.",
-    )
     COLOURED_RESIDUAL = (
         "coloured_residual",
         "Residuals are not white (lag-one autocorrelation {lag_one:.2f}, spectral peak "
@@ -322,15 +308,6 @@ class EstimateReason(Code):
     )
     HARDLY_MOVED = "hardly_moved", "The platform moved too little to determine the unknowns."
     NO_CAMERA = "no_camera", "The method needs a camera, in the record and in the testbed."
-    NO_POSITION = (
-        "no_position",
-        "The method needs attitude and position in the record, and both sensors and [table] in "
-        "the testbed.",
-    )
-    BEARING_MOVES = (
-        "bearing_moves",
-        "The bearing moves over a table, which this method does not model. Use the method auto.",
-    )
     NO_ATTITUDE = "no_attitude", "The tracker needs an attitude sensor: the record has no attitude."
     NO_GYRO = "no_gyro", "The method needs a gyro, in the record and in the testbed."
     NO_KNOWN_INPUT = (
