@@ -108,9 +108,7 @@ def in_plane(problem: PlanarProblem, recording: Recording, motion: SampledMotion
     weight, toward = plane_prior(problem, float(t[-1]))
     data, right = rows_A.T @ rows_A, rows_A.T @ known.ravel() / sd
     found = scaled_solve(data + np.diag(weight), right + weight * toward, 0.0)
-    left: Floats = (
-        rows_A @ found - known.ravel() / sd
-    )  # more than noise where the map is too coarse
+    left: Floats = rows_A @ found - known.ravel() / sd  # noise, and a map too coarse
     normal = data / max(float(np.mean(left**2)), 1.0) + np.diag(weight)
     pulled: Series = mass * testbed.gravity * found[DOWNHILL] * t[:, None]
     momentum: Series = found[SPEED] + pulled - once @ found[RUBBED]
