@@ -135,6 +135,21 @@ SENSORS = _of(
 
 DYNAMICS = _of(
     "dynamics",
+    *((f"planar/{file}.py", text, broken, "dynamics/planar/test_planar_motion.py")
+      for file, text, broken in (
+        ("planar_motion", "dy[4 + j] -= carried[j]", "dy[4 + j] += carried[j]"),
+        ("planar_motion", "xx = table.floating_mass - inner(a, from_a)",
+         "xx = table.floating_mass + inner(a, from_a)"),
+        ("planar_motion", "along_x = y[PI] - inner(e, travel) - inner(a, free)",
+         "along_x = y[PI] - inner(e, travel) + inner(a, free)"),
+        ("planar_motion", "along_y = y[PI + 1] - inner(f, travel)",
+         "along_y = y[PI + 1] + inner(f, travel)"),
+        ("planar_motion", "table.pull[j] - c * found.v[j]", "table.pull[j] + c * found.v[j]"),
+        ("planar_motion", "spin[j] + now.momentum[j] + carried[j]",
+         "spin[j] + now.momentum[j] - carried[j]"),
+        ("friction_map", "(1.0 - hat.share_y) * low + hat.share_y * high",
+         "hat.share_y * low + (1.0 - hat.share_y) * high"),
+    )),
     ("lamp_warmth.py", "part * (aim - warm[-1])", "part * (aim + warm[-1])",
      "dynamics/test_lamp_warmth.py"),
     ("timeline.py", "if steps > MOST_STEPS:", "if steps > MOST_STEPS + 1:",
@@ -300,6 +315,16 @@ ESTIMATION = (*_of(
      "u + gain[i] * (h[j] / before)", "onboard/test_methods.py"),
     ("regression/solvers/factored.py", "gain[i] += v * u", "gain[i] -= v * u",
      "onboard/test_methods.py"),
+    ("planar/planar_start.py", "found[SPEED] + pulled - once @ found[RUBBED]",
+     "found[SPEED] + pulled + once @ found[RUBBED]",
+     "estimation/planar/test_planar_start.py"),
+    ("planar/planar_start.py", "A[:, :, 6:9] + by_com", "A[:, :, 6:9] - by_com",
+     "estimation/planar/test_planar_start.py"),
+    ("planar/planar_start.py", "-0.5 * mass * testbed.gravity * t**2",
+     "0.5 * mass * testbed.gravity * t**2", "estimation/planar/test_planar_start.py"),
+    ("planar/planar_problem.py", "x, y = sx + lx, sy + ly", "x, y = sx - lx, sy - ly",
+     "estimation/planar/test_planar_fit.py::"
+     "test_a_camera_whose_vertical_leans_is_separated_from_the_slope"),
     ("output_error/kernels/gauss_newton.py", "cost += 0.5 * posed.coupling",
      "cost -= 0.5 * posed.coupling",
      "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
@@ -460,6 +485,10 @@ ESTIMATION = (*_of(
 
 SIMULATION = _of(
     "simulation",
+    ("planar/planar_bench.py", "tick(stamps - sensor.delay)), P : P + 2]",
+     "tick(stamps)), P : P + 2]", "simulation/planar/test_planar_bench.py"),
+    ("planar/true_table.py", "true.friction.reshape(2, 2)", "true.friction.reshape(2, 2).T",
+     "simulation/planar/test_true_table.py"),
     ("hands.py", "com = body.first_moment / known.body.mass", "com = body.com",
      "procedure/balancing/test_hands_then_masses.py"
      "::test_the_released_platform_is_the_one_that_was_loaded"),

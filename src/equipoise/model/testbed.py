@@ -37,6 +37,7 @@ from equipoise.model.hardware import Hardware
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.presentation import Shown
 from equipoise.model.reasons.reason import Reason
+from equipoise.model.table_top import PlanarTable, PositionSensor, TrueTable
 from equipoise.model.torque_terms import GROUPS
 from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 from equipoise.model.weights import Weight, WeightGrid
@@ -168,6 +169,7 @@ class Truth:
     sun_mounting: Vector3 = field(default_factory=nothing)  # rad
     magnetometer_mounting: Vector3 = field(default_factory=nothing)  # rad
     lamp: TrueLamp | None = None  # None: there is none, or it is always off
+    table: TrueTable | None = None  # None: level, without friction; P starts at rest in the middle
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -209,6 +211,8 @@ class Testbed(Shown):
     sun: SunSensor | None = None
     magnetometer: Magnetometer | None = None  # of ``field_N``
     thermometer: Thermometer | None = None
+    position: PositionSensor | None = None
+    table: PlanarTable | None = None  # that P moves over; None: P stands still
     # of J_P (xx yy zz xy xz yz, kg m^2) and com (m), masses at home; not of a file: as a balancing
     # by hand has found them; None: independent, as the sds above say
     body_covariance: Square | None = None
