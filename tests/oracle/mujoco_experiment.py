@@ -122,9 +122,9 @@ class ExperimentBench(MujocoBench):
         turn = product(observed * np.array([1.0, -1.0, -1.0, -1.0]), wanted)
         e = 2.0 * np.sign(turn[0]) * turn[1:]
         ahead = product(wanted * np.array([1.0, -1.0, -1.0, -1.0]), self._wanted(t + 0.01))
-        asked = 2.0 * ahead[1:] / 0.01  # rad/s, of the reference
+        turning = 2.0 * ahead[1:] / 0.01  # rad/s, of the reference
         J = self._platform.inertia_P
-        u = J @ (STIFF**2 * e + 2 * DAMPED * STIFF * (asked - rate))
+        u = J @ (STIFF**2 * e + 2 * DAMPED * STIFF * (turning - rate))
         axes = np.array([wheel.axis for wheel in self.testbed.wheels])
         drive = -np.linalg.lstsq(axes.T, u, rcond=None)[0]
         for k, wheel in enumerate(self.testbed.wheels):
