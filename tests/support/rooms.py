@@ -23,9 +23,9 @@ PLACES = {
     "app": (0, 0, 12, 3), "study": (0, 3, 4, 2), "procedure": (4, 3, 5, 2),
     "planning": (0, 5, 4, 3), "simulation": (4, 5, 3, 3), "onboard": (7, 5, 2, 3),
     "estimation": (0, 8, 5, 5),
-    "control": (5, 8, 2, 5), "assessment": (7, 8, 2, 5), "dynamics": (0, 13, 9, 1),
-    "sensors": (0, 14, 4, 2), "actuators": (4, 14, 5, 2), "io": (9, 3, 3, 7),
-    "hardware": (9, 10, 3, 6), "maths": (0, 16, 12, 2), "model": (0, 18, 12, 2),
+    "control": (5, 8, 2, 5), "assessment": (7, 8, 2, 5), "dynamics": (0, 13, 9, 2),
+    "sensors": (0, 15, 4, 2), "actuators": (4, 15, 5, 2), "io": (9, 3, 3, 7),
+    "hardware": (9, 10, 3, 7), "maths": (0, 17, 12, 2), "model": (0, 19, 12, 2),
 }  # fmt: skip
 CELL, ROW, GAP, MARGIN = 84, 40, 12, 14  # px
 LINE, SMALL, LARGE, COLUMN, LETTER = 15, 11, 14, 165, 6.5  # px
