@@ -14,6 +14,7 @@ from equipoise.app.figures import catalogue, design_catalogue
 from equipoise.app.figures.balancing import (
     balanced_steps,
     com_over_hours,
+    kept_com,
     residual_torque,
     rounds_com,
     torque_in_range,
@@ -143,6 +144,9 @@ def _of_balancing():
         "com_over_hours",
         com_over_hours.draw(OverHours(T, com, 0 * com + 1e-7, 0, wander), wander),
     )
+    kept = Course(COM, T, com, 0 * com + 3e-7)
+    tolerance = np.full(3, 3e-6)
+    yield "kept_com", kept_com.draw(kept, com + 1e-7, com.mean(axis=0), tolerance)
 
 
 def _of_recordings():

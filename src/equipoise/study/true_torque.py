@@ -8,7 +8,7 @@ the propagator's sensitivities have a part in it.
 """
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
 from equipoise.dynamics.regressor import CONSTANT, DRIFT, QUADRATIC, SWIRL, THERMAL, VISCOUS
@@ -92,5 +92,5 @@ class TrueTorqueBench(SimulatedBench):
 
 def integrals(t: Series1, values: Series3, edges: Series1) -> Series3:
     """Return the integrals of a smooth series between neighbouring edges (s)."""
-    running = CubicSpline(t, values).antiderivative()(edges)
+    running = scipy.interpolate.CubicSpline(t, values).antiderivative()(edges)
     return np.diff(np.asarray(running, dtype=np.float64), axis=0)

@@ -18,7 +18,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
+import scipy
 
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import SAME
@@ -89,7 +89,9 @@ def attitudes(motions: Motions, t: Series1) -> Series4:
     found: list[Floats] = []
     for at, rows in zip(motions.of, rows_within(motions, t), strict=True):
         rate = np.hstack([np.zeros((len(at.t), 1)), at.motion.rate])
-        line = CubicHermiteSpline(at.t, at.motion.q, 0.5 * multiply(at.motion.q, rate))
+        line = scipy.interpolate.CubicHermiteSpline(
+            at.t, at.motion.q, 0.5 * multiply(at.motion.q, rate)
+        )
         found.append(np.asarray(line(t[rows]), dtype=np.float64).reshape(-1, 4))
     q = np.vstack(found)
     return q / np.linalg.norm(q, axis=1, keepdims=True)

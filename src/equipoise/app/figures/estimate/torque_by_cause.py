@@ -12,12 +12,16 @@ CAPTION = (
     "that."
 )
 
+AIR = 0.06  # of the time axis, chosen: the last number below it has room
+
 
 @styled
 def draw(torque: TorqueByCause) -> Figure:
     """Return the figure."""
     figure, grid = panel_grid(len(torque.courses), 3, height=0.95)
     middle = torque.t + 0.5 * torque.interval
+    room = AIR * float(middle[-1] - middle[0])
+    grid[0][0].set_xlim(float(middle[0]) - room, float(middle[-1]) + room)
     for row, course in zip(grid, torque.courses, strict=True):
         for i, axes in enumerate(row):
             value, spread = course.torque[:, i] / UN_M, course.sd[:, i] / UN_M
