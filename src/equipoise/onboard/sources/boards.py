@@ -14,9 +14,11 @@ STACK = {"ekf_9": 3072, "momentum_recursive": 640}
 
 
 def verdicts(found: Translated) -> list[str]:
-    """Return for each board whether the program fits."""
+    """Return for each board whether the program fits, and what it leaves for all else on it."""
     needed = found.state_bytes + found.table_bytes + STACK[found.method]
     return [
-        f"- {name}: {'fits' if needed <= size else 'does not fit'} ({needed} bytes needed)"
+        f"- {name}: {needed} bytes do not fit"
+        if needed > size
+        else f"- {name}: {needed} bytes fit; {size - needed} are left for sketch and serial buffers"
         for name, size in BOARDS
     ]
