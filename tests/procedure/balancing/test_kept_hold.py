@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.tracker import tracker
+from equipoise.hardware.bench.replayed_bench import ReplayedBench
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
 from equipoise.model.permission import Permission
@@ -113,6 +114,23 @@ def test_it_goes_on_after_an_interruption(kept):
     assert np.all(np.abs(held.state.com - true) < 4 * sd)
     steps = list(hold(bench, held, HoldOptions(duration=30.0, every=1.0, motion=BUDGET)))
     assert steps[-1].kind == "verify"
+
+
+def test_a_recording_is_kept_as_a_bench_is(kept):
+    """The same rows give the same centre of mass, whoever reads them; masses did not obey then."""
+    bench, _, states, _ = kept
+    rows = bench.read(40.0)
+    known = replace(kept_of(states[-1]), displacement=rows.masses.values[-1])
+    replayed = ReplayedBench(bench.testbed, rows)
+    options = HoldOptions(
+        duration=30.0, every=1.0, motion=BUDGET, schedule=Schedule(lambda: "hold")
+    )
+    found = []
+    *_, last = hold(replayed, resumed(replayed, known, 60.0), options, found.append)
+    assert last.kind == "verify"
+    state = found[-1].state
+    sd = np.sqrt(np.diag(state.covariance))[6:9]
+    assert np.all(np.abs(state.com - bench.platform.body.com - DRIFT * state.t) < 4 * sd)
 
 
 def test_masses_that_were_moved_meanwhile_are_refused(kept):
