@@ -119,6 +119,7 @@ def test_it_goes_on_after_an_interruption(kept):
 def test_a_recording_is_kept_as_a_bench_is(kept):
     """The same rows give the same centre of mass, whoever reads them; masses did not obey then."""
     bench, _, states, _ = kept
+    bench.stop()
     rows = bench.read(40.0)
     known = replace(kept_of(states[-1]), displacement=rows.masses.values[-1])
     replayed = ReplayedBench(bench.testbed, rows)
