@@ -27,6 +27,7 @@ def test_one_mass_by_hand():
     by_torque = 2e-6 / np.sqrt(2 * h**2 / 0.01 + rate**2 / 3)
     assert by_torque == pytest.approx(5.79e-6, rel=0.01)
     assert speed_for(BED, X, MotionBudget(2e-6)) == pytest.approx(by_torque)
+    assert speed_for(BED, -1e-3 * X, MotionBudget(2e-6)) == pytest.approx(by_torque)
     assert speed_for(BED, X, MotionBudget(2e-6, 1e-6)) == pytest.approx(1e-6 / rate)
     assert speed_for(BED, X, MotionBudget(2e-6, 1.0)) == pytest.approx(by_torque)
 
