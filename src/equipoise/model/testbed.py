@@ -35,6 +35,7 @@ from equipoise.model.devices import (
 )
 from equipoise.model.hardware import Hardware
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.modes import Mode
 from equipoise.model.presentation import Shown
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.torque_terms import GROUPS
@@ -168,6 +169,7 @@ class Truth:
     sun_mounting: Vector3 = field(default_factory=nothing)  # rad
     magnetometer_mounting: Vector3 = field(default_factory=nothing)  # rad
     lamp: TrueLamp | None = None  # None: there is none, or it is always off
+    modes: tuple[Mode, ...] = ()  # what is not rigid
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
