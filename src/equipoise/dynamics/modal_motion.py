@@ -29,7 +29,7 @@ from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at, invert, time
 from equipoise.dynamics.sensitivities import Inputs, Work
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.kernels.copying import copy_values
-from equipoise.model.arrays import Floats, Ints, Series1, Triple, Vector3
+from equipoise.model.arrays import Floats, Ints, Series1, Six, Triple, Vector3
 from equipoise.model.modes import Mode
 
 SWAY = 0.05  # rad of a mode's phase in a step, chosen: energy errs by 2e-10 of it in a step
@@ -196,3 +196,13 @@ def follow_modes(
     out = ModalMotion(np.zeros((len(t), len(y))), np.zeros((len(t), 3)))
     _follow(body, maps, modes, t, known, NO_OWNERS, y.copy(), out)
     return out
+
+
+@kernel
+def total_momentum(
+    body: Body, maps: Floats, t: Floats, known: Floats, i: int, w: Floats
+) -> tuple[Triple, Six]:
+    """Return J w + h (N m s) at the beginning of step i, without modes, and J^-1."""
+    now = body_at(body, maps, t, known, i, 0.0)
+    H, h = times(now.inertia, (w[0], w[1], w[2])), now.momentum
+    return (H[0] + h[0], H[1] + h[1], H[2] + h[2]), now.inverse
