@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.defects import nothing
 
 
@@ -39,3 +39,50 @@ class Mode:
     def inertia(self) -> float:
         """Inertia that takes part, d.d, kg m^2."""
         return float(self.coupling @ self.coupling)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FreeMode:
+    """A mode as a platform that is free to turn shows it.
+
+    Of the inertia J, the share k = d.J^-1 d that takes part raises frequency and damping: those of
+    the part while the platform is held are (1 - k)^(1/2) times these.
+    """
+
+    frequency: float  # Hz
+    damping: float  # -, share of the critical damping
+    coupling: Vector3  # sqrt(kg) m, d
+    deflection: float = 0.0  # sqrt(kg) m, e at the beginning
+    velocity: float = 0.0  # sqrt(kg) m/s, e' at the beginning
+
+
+MOST_SHARE = 0.9  # chosen: more than nine tenths of a platform are no part of it
+
+
+def share_of(coupling: Vector3, inertia_P: Matrix3) -> float:
+    """Return k = d.J^-1 d, at most ``MOST_SHARE``, of a platform of this inertia (kg m^2)."""
+    return min(float(coupling @ np.linalg.solve(inertia_P, coupling)), MOST_SHARE)
+
+
+def held(mode: FreeMode, inertia_P: Matrix3) -> Mode:
+    """Return a mode as it is while the platform, of this inertia (kg m^2, about P), is held."""
+    slower = (1.0 - share_of(mode.coupling, inertia_P)) ** 0.5
+    return Mode(
+        slower * mode.frequency,
+        slower * mode.damping,
+        mode.coupling,
+        deflection=mode.deflection,
+        velocity=mode.velocity,
+    )
+
+
+def freed(mode: Mode, inertia_P: Matrix3) -> FreeMode:
+    """Return a mode without a moment as a free platform of this inertia (kg m^2) shows it."""
+    faster = (1.0 - share_of(mode.coupling, inertia_P)) ** -0.5
+    return FreeMode(
+        faster * mode.frequency,
+        faster * mode.damping,
+        mode.coupling,
+        mode.deflection,
+        mode.velocity,
+    )

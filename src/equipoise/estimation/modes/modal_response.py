@@ -25,8 +25,8 @@ from equipoise.estimation.parameters.fit_parameters import Unknowns, unknowns_of
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.straight_lines import read_at
-from equipoise.model.arrays import Floats, Series, Series1, Series3, Square, Vector3
-from equipoise.model.modes import Mode
+from equipoise.model.arrays import Floats, Matrix3, Series, Series1, Series3, Square, Vector3
+from equipoise.model.modes import FreeMode, Mode, held
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import Testbed
 
@@ -68,14 +68,6 @@ def real_inputs(model: RecordModel) -> tuple[Series1, Floats]:
     for j, (mass, error) in enumerate(line.owners):
         known[:, KNOWN_D + mass] += fitted.point.error[error] * line.known[:, first + j]
     return line.t, known
-
-
-def fastest(modes: Sequence[Mode], inverse: Square) -> float:
-    """Return the greatest frequency (rad/s) at which modes may move, the platform being free."""
-    shares = [float(m.coupling @ inverse @ m.coupling) for m in modes]
-    free = [m.angular_frequency / max(1.0 - x, 0.1) ** 0.5
-            for m, x in zip(modes, shares, strict=True)]  # fmt: skip
-    return max(free)
 
 
 def ground_of(model: RecordModel, frequency: float) -> Ground:
@@ -146,21 +138,40 @@ def response(ground: Ground, modes: Sequence[Mode], testbed: Testbed) -> Respons
     return Response(ground.t, y[:, :4], e, p - rate @ coupling.T)
 
 
+def by_lines(t: Series1, oscillating: Floats, frequency: Floats) -> Floats:
+    """Return what lines are drawn through so that they oscillate as much as what they stand for.
+
+    Lines between points of a wave, x = W dt of its phase apart, hold 1 - x^2 / 12 of it.
+    """
+    dt = np.diff(t)
+    square = 0.5 * (np.append(dt[:1], dt) ** 2 + np.append(dt, dt[-1:]) ** 2)
+    return oscillating * (1.0 + np.outer(square, frequency**2) / 12.0)
+
+
 def inputs_of(found: Response, modes: Sequence[Mode], gravity: float) -> ModalInputs:
     """Return what modes do to the body: sum d e', and (sum s e) x g_B."""
     coupling = np.array([mode.coupling for mode in modes])
     moment = np.array([mode.moment for mode in modes])
     down: Series3 = -gravity * to_matrix(found.q)[:, 2, :]
-    momentum = Samples(found.t, found.velocity @ coupling)
+    frequency = np.array([mode.angular_frequency for mode in modes])
+    momentum = Samples(found.t, by_lines(found.t, found.velocity, frequency) @ coupling)
     return ModalInputs(momentum, Samples(found.t, np.cross(found.deflection @ moment, down)))
 
 
-def with_response(model: RecordModel, modes: Sequence[Mode]) -> RecordModel:
-    """Return the model with modes as they move in its own fitted motion, not fitted anew yet."""
-    if not modes:
-        return replace(model, modes=(), params=replace(model.params, modal=None))
-    inverse = np.linalg.inv(model.fitted.point.body(model.testbed.body.mass).inertia_P)
-    ground = ground_of(model, fastest(modes, inverse))
-    found = response(ground, modes, model.testbed)
-    modal = inputs_of(found, modes, model.testbed.gravity)
+def inertia_of(model: RecordModel) -> Matrix3:
+    """Return the fitted inertia about P, kg m^2."""
+    return model.fitted.point.body(model.testbed.body.mass).inertia_P
+
+
+def with_response(model: RecordModel, modes: Sequence[FreeMode]) -> RecordModel:
+    """Return the model with modes as they move in its own fitted motion, not fitted anew yet.
+
+    Their frequency is that of the free platform, which the record shows: a fitted inertia that is
+    not yet right leaves the phase of each mode as it is.
+    """
+    inertia = inertia_of(model)
+    real = [held(mode, inertia) for mode in modes]
+    ground = ground_of(model, 2.0 * float(np.pi) * max(mode.frequency for mode in modes))
+    found = response(ground, real, model.testbed)
+    modal = inputs_of(found, real, model.testbed.gravity)
     return replace(model, modes=tuple(modes), params=replace(model.params, modal=modal))

@@ -1,0 +1,43 @@
+"""The modes that a record shows: one after the other, while what is left has a line.
+
+A line beyond chance (``residual_line``) is explained by a mode, fitted with all else. The mode is
+kept where twice the log likelihood grows by what the line promised, 2 x*: a line that a mode cannot
+make, with all rows of all sensors, is no mode.
+
+Cannot see a mode so weak that its line drowns: by the height of the line, 2 x* is some 45, a rate
+of amplitude A in n rows of noise s being seen from n A^2 / (2 s^2) = 45 on where it does not decay.
+"""
+
+from equipoise.estimation.events.record_model import RecordModel
+from equipoise.estimation.modes.modal_fit import fit_modes
+from equipoise.estimation.modes.mode_guess import guessed
+from equipoise.estimation.modes.residual_line import residual_line
+from equipoise.estimation.output_error.solution import cost_of
+from equipoise.estimation.search_budget import Stage
+
+MOST = 2  # modes, chosen: a third is noise that has a colour
+
+
+def another(model: RecordModel) -> RecordModel:
+    """Return the model with one mode more; the same where the record shows none."""
+    line = residual_line(model.fitted)
+    if line is None or not line.is_sure:
+        return model
+    found = fit_modes(model, [*model.modes, guessed(model, line)]).model
+    gained = 2.0 * (cost_of(model.fitted) - cost_of(found.fitted))
+    return found if gained > 2.0 * line.threshold else model
+
+
+def with_modes(model: RecordModel) -> RecordModel:
+    """Return the model with all modes that its record shows beside those that it has."""
+    while len(model.modes) < MOST and model.may(Stage.TERMS):
+        found = another(model)
+        if found is model:
+            break
+        model = found
+    return model
+
+
+def settled_modes(model: RecordModel) -> RecordModel:
+    """Return the model with its modes at their optimum, all else as it was found since."""
+    return fit_modes(model, model.modes).model if model.modes else model
