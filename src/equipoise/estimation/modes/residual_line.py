@@ -1,6 +1,6 @@
 """A line in what a fit leaves: a mode that nobody modelled moves at one frequency.
 
-The periodogram of the residuals, windowed (von Hann), summed over the axes,
+The periodogram of the residuals, tapered at both ends (Tukey), summed over the axes,
 
     P_k = sum_axes |sum_i v_i r_i exp(-2 pi j f_k t_i)|^2,      x_k = P_k / median of P nearby
 
@@ -8,15 +8,20 @@ is Gamma distributed of shape 3 for white noise, scaled. The median over a band 
 takes noise that has a colour as it is there. The greatest of M independent x exceeds the threshold
 x* by chance with a probability of M (1 + x* + x*^2 / 2) exp(-x*).
 
+So are halves, quarters and eighths of the record, where a mode may have died down.
+
 Cannot see a mode above the Nyquist frequency of a sensor's rows; it is taken for its alias there.
 Nor one within a few times the frequency of the motion, where what the model lacks leaves lines too.
 """
 
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import median_filter
 from scipy.optimize import brentq
+from scipy.signal.windows import tukey
 
 from equipoise.estimation.output_error.problem import quickest_swing
 from equipoise.estimation.output_error.solution import Fitted
@@ -31,6 +36,8 @@ ABOVE = 6.0  # chosen: times the fastest motion; its harmonics have faded there
 WAVES = 12.0  # chosen: fewer within a record are no line
 HIGHEST = 0.96  # chosen: of the Nyquist frequency
 FINER = 4  # chosen: frequencies for an independent one; between, heights are higher by chance
+LEVELS = 4  # chosen: the whole record, halves, quarters, eighths
+TAPER = 0.2  # of a record, chosen: both ends together
 FEWEST = 200  # rows, chosen: fewer have no band to compare with
 
 
@@ -60,7 +67,7 @@ def spectrum_of(t: Series1, left: Series3, period: float) -> Spectrum:
     slot = np.round((t - t[0]) / period).astype(np.int64)
     n = int(slot[-1]) + 1
     grid = np.zeros((n, 3))
-    np.add.at(grid, slot, left * np.hanning(n)[slot][:, None])
+    np.add.at(grid, slot, left * tukey(n, TAPER)[slot][:, None])
     return Spectrum(np.fft.rfftfreq(FINER * n, period), np.fft.rfft(grid, FINER * n, axis=0))
 
 
@@ -79,13 +86,18 @@ def within(f: Series1, lowest: float, period: float) -> Bools:
     return found
 
 
-def line_in(rows: Samples, left: Series3, lowest: float) -> Line | None:
-    """Return the greatest line above a frequency (Hz); None where rows are too few."""
-    if len(rows) < FEWEST:
+def line_in(
+    t: Series1, left: Series3, period: float, lowest: float, whole: int
+) -> Line | None:
+    """Return the greatest line above a frequency (Hz); None where rows are too few.
+
+    ``whole`` is how many frequencies the whole record has; the threshold counts that its halves,
+    quarters and so on (``LEVELS``) have as many together.
+    """
+    if len(t) < FEWEST:
         return None
-    period = rows.period
-    spectrum = spectrum_of(rows.t, left, period)
-    sought = within(spectrum.f, lowest, period)
+    spectrum = spectrum_of(t, left, period)
+    sought = within(spectrum.f, max(lowest, WAVES / (t[-1] - t[0])), period)
     if np.count_nonzero(sought) < FINER * BAND:
         return None
     f, sums = spectrum.f[sought], spectrum.sums[sought]
@@ -95,23 +107,35 @@ def line_in(rows: Samples, left: Series3, lowest: float) -> Line | None:
     k = int(np.argmax(height))
     cross = np.real(np.outer(sums[k], np.conj(sums[k])))
     axis: Vector3 = np.linalg.eigh(cross)[1][:, -1].astype(np.float64, copy=False)
-    threshold = threshold_for(float(np.count_nonzero(sought)))
-    return Line(float(f[k]), float(height[k]), threshold, axis)
+    return Line(float(f[k]), float(height[k]), threshold_for(float(whole * LEVELS)), axis)
+
+
+def parts_of(rows: Samples, left: Series3) -> Iterator[tuple[Series1, Series3]]:
+    """Yield the rows of the record, its halves, and so on: a mode may die down within a part."""
+    start, end = float(rows.t[0]), float(rows.t[-1])
+    for level in range(LEVELS):
+        edges = np.linspace(start, end, 2**level + 1)
+        for a, b in pairwise(edges):
+            inside = (rows.t >= a) & (rows.t <= b)
+            yield rows.t[inside], left[inside]
 
 
 def lowest_frequency(fitted: Fitted) -> float:
     """Return the frequency (Hz) above which a line is no motion that gravity and spin explain."""
     recording, testbed = fitted.problem.recording, fitted.problem.testbed
-    start, end = recording.span
     swing = fitted.point.body(testbed.body.mass).swing_time(testbed.gravity)
     motion = max(fastest_rate(recording), min(quickest_swing(testbed), 2.0 / swing))
-    return max(ABOVE * motion / (2 * np.pi), WAVES / (end - start))
+    return ABOVE * motion / (2 * np.pi)
 
 
 def residual_line(fitted: Fitted) -> Line | None:
     """Return the surest line in what a fit leaves of the gyro's rows, or of the camera's."""
     recording, lowest = fitted.problem.recording, lowest_frequency(fitted)
     pairs = ((recording.rate, fitted.at.left_w), (recording.attitude, fitted.at.left_q))
-    lines = [line_in(rows, left, lowest) for rows, left in pairs if rows is not None]
+    lines = [
+        line_in(t, part, rows.period, lowest, FINER * len(rows) // 2)
+        for rows, left in pairs if rows is not None and len(rows) > 1
+        for t, part in parts_of(rows, left)
+    ]  # fmt: skip
     found = [line for line in lines if line is not None]
     return max(found, key=lambda line: line.height / line.threshold, default=None)
