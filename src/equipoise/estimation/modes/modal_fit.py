@@ -10,7 +10,7 @@ is Gauss-Newton in x and theta together with x taken out (variable projection: G
 on to x. Each fit takes what modes do to the body as known (``modal_response``), and is repeated
 until that follows from the fit's own motion.
 
-Unknowns of a mode are ln W, z, d, and |d| e and |d| e' at the beginning: a mode that takes half the
+Unknowns of a mode are ln W, z, ln |d|, the direction of d, and |d| e and |d| e' at the beginning: a mode that takes half the
 part but moves twice as much shakes the platform alike, until the motion changes, and so d is then
 known by its direction alone. A moment s is not among them: within
 some degrees of level a mode with s moves the platform as one of the coupling
@@ -32,12 +32,12 @@ from equipoise.estimation.output_error.problem import posed
 from equipoise.estimation.output_error.solution import Fitted, cost_of
 from equipoise.estimation.parameters.fit_parameters import TURN, physical
 from equipoise.estimation.search_budget import Stage
-from equipoise.model.arrays import Floats, Series1, Square
+from equipoise.model.arrays import Floats, Matrix3, Series1, Square, Vector3
 from equipoise.model.modes import FreeMode
 
 EACH = 7  # unknowns of a mode
 ANGLE = 0.01  # rad, chosen: natural size of how a mode moves
-SD = (10.0, 5.0, 0.5, 0.5, 0.5, 10.0, 10.0)  # of priors in natural sizes, chosen: wide
+SD = (1.0, 5.0, 1.5, 1.0, 1.0, 10.0, 10.0)  # of priors in natural sizes, chosen: wide
 FINE = 1.0  # sd, chosen: by which the data change in a difference
 COARSEST = 0.2  # natural sizes, chosen: of a difference
 TURNS, MOST = 3, 20  # chosen: fits until a motion and its modes agree; steps
@@ -61,25 +61,36 @@ class ModalFit:
         return total(self.model, self.theta)
 
 
+def directions(mode: FreeMode) -> Matrix3:
+    """Return the direction of d and two across it, as rows."""
+    along: Vector3 = mode.coupling / size_of(mode)
+    aside = np.eye(3)[int(np.argmin(np.abs(along)))]
+    first: Vector3 = np.cross(along, aside)
+    first = first / np.linalg.norm(first)
+    return np.array([along, first, np.cross(along, first)])
+
+
 def sizes(mode: FreeMode, moment: float) -> Floats:
-    """Return natural sizes of a mode's unknowns: 1, 0.01, sqrt(J), and J by 0.01 rad."""
-    size, turn = moment**0.5, ANGLE * moment
+    """Return natural sizes of a mode's unknowns: 1, 0.01, 1, 1, 1, and J by 0.01 rad."""
+    turn = ANGLE * moment
     speed = 2.0 * float(np.pi) * mode.frequency * turn
-    return np.array([1.0, 0.01, size, size, size, turn, speed])
+    return np.array([1.0, 0.01, 1.0, 1.0, 1.0, turn, speed])
 
 
 def size_of(mode: FreeMode) -> float:
     """Return |d|, sqrt(kg) m."""
-    return float(np.linalg.norm(mode.coupling))
+    return max(float(np.linalg.norm(mode.coupling)), LEAST)
 
 
 def vector_of(modes: Sequence[FreeMode], first: Sequence[FreeMode], moment: float) -> Floats:
-    """Return the unknowns of modes; frequencies are relative to those at first."""
-    rows = [
-        np.array([np.log(m.frequency / one.frequency), m.damping, *m.coupling,
-                  size_of(m) * m.deflection, size_of(m) * m.velocity]) / sizes(one, moment)
-        for m, one in zip(modes, first, strict=True)
-    ]  # fmt: skip
+    """Return the unknowns of modes; frequency and coupling are relative to those at first."""
+    rows = list[Floats]()
+    for m, one in zip(modes, first, strict=True):
+        along, x, y = directions(one) @ m.coupling
+        size = size_of(m)
+        found = [np.log(m.frequency / one.frequency), m.damping, np.log(size / size_of(one)),
+                 x / along, y / along, size * m.deflection, size * m.velocity]  # fmt: skip
+        rows.append(np.array(found) / sizes(one, moment))
     return np.concatenate(rows)
 
 
@@ -89,8 +100,11 @@ def modes_at(theta: Floats, first: Sequence[FreeMode], moment: float) -> tuple[F
     for k, one in enumerate(first):
         x = theta[EACH * k : EACH * (k + 1)] * sizes(one, moment)
         frequency, damping = one.frequency * float(np.exp(x[0])), max(float(x[1]), 0.0)
-        size = max(float(np.linalg.norm(x[2:5])), LEAST)
-        found.append(FreeMode(frequency, damping, x[2:5], float(x[5]) / size, float(x[6]) / size))
+        size, along = size_of(one) * float(np.exp(x[2])), np.array([1.0, x[3], x[4]])
+        coupling = size / np.linalg.norm(along) * (along @ directions(one))
+        found.append(
+            FreeMode(frequency, damping, coupling, float(x[5]) / size, float(x[6]) / size)
+        )
     return tuple(found)
 
 
@@ -154,7 +168,7 @@ class Search:
 def first_steps(mode: FreeMode, span: float) -> Series1:
     """Return by how much unknowns are varied at first: a mode's phase at the end by 0.05 rad."""
     phase = 0.05 / (2.0 * float(np.pi) * mode.frequency * span)
-    return np.array([phase, 100.0 * phase, 0.01, 0.01, 0.01, 0.02, 0.02])
+    return np.array([phase, 100.0 * phase, 0.1, 0.01, 0.01, 0.02, 0.02])
 
 
 def fit_modes(model: RecordModel, modes: Sequence[FreeMode]) -> ModalFit:
