@@ -78,8 +78,9 @@ def simulated(
         return platform, oracle.simulate(platform, (ramp,), SPAN), None, 0.0
     platform, part = with_part(rng, kind)
     ramp = oracle.Ramp(MOVED, np.full(3, 0.012))
-    mode, wanted = flexible.mode_of(part, platform), np.exp(
-        rng.uniform(np.log(FLOOR), np.log(STRONGEST))
+    mode, wanted = (
+        flexible.mode_of(part, platform),
+        np.exp(rng.uniform(np.log(FLOOR), np.log(STRONGEST))),
     )
     probe = flexible.simulate(platform, replace(part, angle=1e-3), (), 30.0)
     angle = 1e-3 * (wanted / strength_of(probe, mode, part)) ** 0.5

@@ -14,7 +14,16 @@ import numpy as np
 
 from equipoise.estimation.events.event_time_covariance import columns_of, widened
 from equipoise.estimation.events.record_model import RecordModel
-from equipoise.estimation.modes.modal_fit import EACH, ModalFit, Search, directions, fit_modes, size_of, sizes, total
+from equipoise.estimation.modes.modal_fit import (
+    EACH,
+    ModalFit,
+    Search,
+    directions,
+    fit_modes,
+    size_of,
+    sizes,
+    total,
+)
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.trajectory import METHOD
 from equipoise.model.arrays import Floats, Square

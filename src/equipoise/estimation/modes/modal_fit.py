@@ -102,9 +102,7 @@ def modes_at(theta: Floats, first: Sequence[FreeMode], moment: float) -> tuple[F
         frequency, damping = one.frequency * float(np.exp(x[0])), max(float(x[1]), 0.0)
         size, along = size_of(one) * float(np.exp(x[2])), np.array([1.0, x[3], x[4]])
         coupling = size / np.linalg.norm(along) * (along @ directions(one))
-        found.append(
-            FreeMode(frequency, damping, coupling, float(x[5]) / size, float(x[6]) / size)
-        )
+        found.append(FreeMode(frequency, damping, coupling, float(x[5]) / size, float(x[6]) / size))
     return tuple(found)
 
 

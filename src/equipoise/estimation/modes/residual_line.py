@@ -86,9 +86,7 @@ def within(f: Series1, lowest: float, period: float) -> Bools:
     return found
 
 
-def line_in(
-    t: Series1, left: Series3, period: float, lowest: float, whole: int
-) -> Line | None:
+def line_in(t: Series1, left: Series3, period: float, lowest: float, whole: int) -> Line | None:
     """Return the greatest line above a frequency (Hz); None where rows are too few.
 
     ``whole`` is how many frequencies the whole record has; the threshold counts that its halves,

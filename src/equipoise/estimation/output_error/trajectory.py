@@ -168,7 +168,15 @@ def problem_of(
     limit = HUBER if params.robust else 0.0
     longest = longest_step(testbed, fastest_rate(recording), recording.rows) / params.fineness
     posed = pose(
-        recording, testbed, layout, errors, prior, longest, limit, scale_open, params.jumps,
+        recording,
+        testbed,
+        layout,
+        errors,
+        prior,
+        longest,
+        limit,
+        scale_open,
+        params.jumps,
         params.modal,
     )
     return replace(posed, budget=params.budget)
