@@ -34,6 +34,7 @@ from equipoise.model.modes import Mode
 
 SWAY = 0.05  # rad of a mode's phase in a step, chosen: energy errs by 2e-10 of it in a step
 TURN = 0.0125  # rad, chosen: as ``simulation.motion``
+MOST_PARTS = 1000.0  # chosen: a gap of more is no motion, but a search that is lost
 NO_OWNERS: Ints = np.zeros((0, 2), dtype=np.int64)
 W, Z, D, S, NUMBERS = 0, 1, 2, 5, 8  # where a mode keeps W, z, d and s
 
@@ -164,7 +165,8 @@ def modal_parts(body: Body, modes: Modes, now: Now, w: Triple, gap: float) -> in
     turning = (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) ** 0.5
     moment = (mu[0] * mu[0] + mu[1] * mu[1] + mu[2] * mu[2]) ** 0.5
     swinging = (body.gravity * moment * trace) ** 0.5
-    return max(int(np.ceil(abs(gap) * ((turning + swinging) / TURN + fastest / SWAY) - 1e-9)), 1)
+    steps = abs(gap) * ((turning + swinging) / TURN + fastest / SWAY)
+    return int(min(max(np.ceil(steps - 1e-9), 1.0), MOST_PARTS)) if steps < np.inf else 1
 
 
 @kernel

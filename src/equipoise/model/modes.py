@@ -60,17 +60,22 @@ MOST_SHARE = 0.9  # chosen: more than nine tenths of a platform are no part of i
 
 
 def share_of(coupling: Vector3, inertia_P: Matrix3) -> float:
-    """Return k = d.J^-1 d, at most ``MOST_SHARE``, of a platform of this inertia (kg m^2)."""
-    return min(float(coupling @ np.linalg.solve(inertia_P, coupling)), MOST_SHARE)
+    """Return k = d.J^-1 d of a platform of this inertia (kg m^2)."""
+    return float(coupling @ np.linalg.solve(inertia_P, coupling))
 
 
 def held(mode: FreeMode, inertia_P: Matrix3) -> Mode:
-    """Return a mode as it is while the platform, of this inertia (kg m^2, about P), is held."""
-    slower = (1.0 - share_of(mode.coupling, inertia_P)) ** 0.5
+    """Return a mode as it is while the platform, of this inertia (kg m^2, about P), is held.
+
+    A coupling of more than ``MOST_SHARE`` is taken for one of that share.
+    """
+    share = share_of(mode.coupling, inertia_P)
+    smaller = min(MOST_SHARE / max(share, MOST_SHARE), 1.0) ** 0.5
+    slower = (1.0 - min(share, MOST_SHARE)) ** 0.5
     return Mode(
         slower * mode.frequency,
         slower * mode.damping,
-        mode.coupling,
+        smaller * mode.coupling,
         deflection=mode.deflection,
         velocity=mode.velocity,
     )

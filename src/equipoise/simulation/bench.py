@@ -232,8 +232,8 @@ class SimulatedBench:
         shift += inertia_shift(self._rails, self._travel.end[actuator.REAL])
         inertia = truth.body.inertia_P + unpack_symmetric(shift)
         modes = truth.truth.modes
-        H = inertia @ truth.rate + h[0]
-        H += sum((mode.coupling * mode.velocity for mode in modes), np.zeros(3))
+        inner = sum((mode.coupling * mode.velocity for mode in modes), h[0])
+        H = inertia @ truth.rate + inner
         return np.concatenate([truth.attitude, H, begun(modes, truth.rate)])
 
     def _command(self, travel: actuator.Travel) -> None:

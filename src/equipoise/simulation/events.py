@@ -60,9 +60,7 @@ def run_through(
     steps: Sequence[ComStep],
     modes: Modes | None = None,
 ) -> Path:
-    """Return the motion as ``motion.run`` does, with modes where there are any; events that happen on the way must be
-    nodes.
-    """
+    """Return the motion as ``motion.run`` does; events that happen on the way must be nodes."""
 
     def between(body: Body, start: Floats, t: Series1, known: Floats) -> Path:
         if modes is None:

@@ -32,8 +32,7 @@ def magnetic_torque(
 
 
 def rate_at(body: Body, maps: Floats, y: Floats, known: Floats) -> Vector3:
-    """Return J(d)^-1 (H - h), rad/s; the momentum of masses on their way, and of modes,
-    is left out."""
+    """Return J(d)^-1 (H - h), rad/s, without the momentum of modes and of masses on their way."""
     d = known[KNOWN_D:]
     inertia = np.array(body.inertia) + d @ maps[:, 3:9] + d**2 @ maps[:, 9:15]
     rate: Vector3 = np.linalg.inv(unpack_symmetric(inertia)) @ (y[4:ROWS] - known[:3])

@@ -10,10 +10,10 @@ is Gauss-Newton in x and theta together with x taken out (variable projection: G
 on to x. Each fit takes what modes do to the body as known (``modal_response``), and is repeated
 until that follows from the fit's own motion.
 
-Unknowns of a mode are ln W, z, ln |d|, the direction of d, and |d| e and |d| e' at the beginning: a mode that takes half the
-part but moves twice as much shakes the platform alike, until the motion changes, and so d is then
-known by its direction alone. A moment s is not among them: within
-some degrees of level a mode with s moves the platform as one of the coupling
+Unknowns of a mode are ln W, z, ln |d|, the direction of d, and |d| e and |d| e' at the beginning.
+A mode that takes half the part but moves twice as much shakes the platform alike until the motion
+changes: |d| itself is then open, all else is not. A moment s is not among the unknowns: within some
+degrees of level a mode with s moves the platform as one of the coupling
 
     d + s x g_0 / W^2
 
@@ -22,7 +22,7 @@ reported.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -39,6 +39,7 @@ EACH = 7  # unknowns of a mode
 ANGLE = 0.01  # rad, chosen: natural size of how a mode moves
 SD = (1.0, 5.0, 1.5, 1.0, 1.0, 10.0, 10.0)  # of priors in natural sizes, chosen: wide
 FINE = 1.0  # sd, chosen: by which the data change in a difference
+BOLD = 1.0  # chosen: of ln |d| in a step
 COARSEST = 0.2  # natural sizes, chosen: of a difference
 TURNS, MOST = 3, 20  # chosen: fits until a motion and its modes agree; steps
 SETTLED = 0.02  # of chi-square, chosen
@@ -65,8 +66,8 @@ def directions(mode: FreeMode) -> Matrix3:
     """Return the direction of d and two across it, as rows."""
     along: Vector3 = mode.coupling / size_of(mode)
     aside = np.eye(3)[int(np.argmin(np.abs(along)))]
-    first: Vector3 = np.cross(along, aside)
-    first = first / np.linalg.norm(first)
+    across = np.cross(along, aside).astype(np.float64, copy=False)
+    first: Vector3 = across / float(np.linalg.norm(across))
     return np.array([along, first, np.cross(along, first)])
 
 
@@ -169,30 +170,31 @@ def first_steps(mode: FreeMode, span: float) -> Series1:
     return np.array([phase, 100.0 * phase, 0.1, 0.01, 0.01, 0.02, 0.02])
 
 
+def tried_step(by_theta: Floats, r: Floats, theta: Floats, damping: float) -> tuple[Floats, float]:
+    """Return the damped step of Gauss-Newton, and by how much chi-square should fall."""
+    P = weights(theta)
+    normal, descent = by_theta.T @ by_theta + np.diag(P), -(by_theta.T @ r) - P * theta
+    damped = normal + damping * np.diag(np.diag(normal))
+    step = np.linalg.solve(damped, descent).astype(np.float64, copy=False)
+    step *= min(1.0, BOLD / max(float(np.abs(step[2::EACH]).max()), 1e-9))
+    return step, float(step @ (2.0 * descent - normal @ step))
+
+
 def fit_modes(model: RecordModel, modes: Sequence[FreeMode]) -> ModalFit:
     """Return the optimum of modes and all else, from first modes."""
     search, damping = Search(model, modes), 1e-3
     theta = vector_of(modes, search.first, search.moment)
     here = search.at(model, theta)
-    J = search.derivative(here, theta)
+    by_theta = search.derivative(here, theta)
     for _ in range(MOST):
-        r, P = residuals(here.fitted), weights(theta)
-        normal, descent = J.T @ J + np.diag(P), -(J.T @ r) - P * theta
-        tried = np.linalg.solve(normal + damping * np.diag(np.diag(normal)), descent)
-        promised = float(tried @ (2.0 * descent - normal @ tried))
+        step, promised = tried_step(by_theta, residuals(here.fitted), theta, damping)
         if promised < SETTLED or damping > BOLDEST or not model.may(Stage.TERMS):
             break
-        there = search.at(here, theta + tried)
-        gained = total(here, theta) - total(there, theta + tried)
-        if gained > 0:
-            theta, here, damping = theta + tried, there, max(0.1 * damping, 1e-6)
-            J = search.derivative(here, theta)
+        there = search.at(here, theta + step)
+        if total(there, theta + step) < total(here, theta):
+            theta, here, damping = theta + step, there, max(0.1 * damping, 1e-6)
+            by_theta = search.derivative(here, theta)
         else:
             damping *= 10.0
-    covariance = np.linalg.inv(J.T @ J + np.diag(weights(theta)))
-    return ModalFit(here, theta, J, covariance.astype(np.float64, copy=False))
-
-
-def without_modes(model: RecordModel) -> RecordModel:
-    """Return the model of a rigid body."""
-    return refitted(replace(model, modes=(), params=replace(model.params, modal=None)))
+    covariance = np.linalg.inv(by_theta.T @ by_theta + np.diag(weights(theta)))
+    return ModalFit(here, theta, by_theta, covariance.astype(np.float64, copy=False))

@@ -19,6 +19,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 from scipy.optimize import brentq
 from scipy.signal.windows import tukey
@@ -26,7 +27,7 @@ from scipy.signal.windows import tukey
 from equipoise.estimation.output_error.problem import quickest_swing
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import fastest_rate
-from equipoise.model.arrays import Bools, Floats, Series, Series1, Series3, Vector3
+from equipoise.model.arrays import Bools, Floats, Ints, Series1, Series3, Vector3
 from equipoise.model.recording import Samples
 
 ALARM = 2e-3  # chosen: probability of a line by chance in one record
@@ -59,16 +60,17 @@ class Spectrum(NamedTuple):
     """Fourier sums of rows at frequencies."""
 
     f: Series1  # Hz
-    sums: Series  # (n, 3), complex
+    sums: NDArray[np.complex128]  # (n, 3)
 
 
 def spectrum_of(t: Series1, left: Series3, period: float) -> Spectrum:
     """Return the windowed Fourier sums of rows; each counts at the nearest of even times."""
-    slot = np.round((t - t[0]) / period).astype(np.int64)
+    slot: Ints = np.array((t - t[0]) / period + 0.5, dtype=np.int64)
     n = int(slot[-1]) + 1
-    grid = np.zeros((n, 3))
-    np.add.at(grid, slot, left * tukey(n, TAPER)[slot][:, None])
-    return Spectrum(np.fft.rfftfreq(FINER * n, period), np.fft.rfft(grid, FINER * n, axis=0))
+    grid, taper = np.zeros((n, 3)), np.asarray(tukey(n, TAPER), dtype=np.float64)
+    np.add.at(grid, slot, left * taper[slot][:, None])
+    f = np.fft.rfftfreq(FINER * n, period).astype(np.float64, copy=False)
+    return Spectrum(f, np.fft.rfft(grid, FINER * n, axis=0))
 
 
 def threshold_for(frequencies: float) -> float:

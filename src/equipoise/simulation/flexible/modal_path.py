@@ -8,8 +8,8 @@ import numpy as np
 
 from equipoise.dynamics.forcing import groups_of
 from equipoise.dynamics.modal_motion import (
-    S,
     Modes,
+    S,
     modal_parts,
     modal_step,
     modal_work,
