@@ -135,6 +135,14 @@ SENSORS = _of(
 
 DYNAMICS = _of(
     "dynamics",
+    ("modal_motion.py", "xx - a * a, yy - b * b", "xx + a * a, yy - b * b",
+     "dynamics/test_modal_motion.py"),
+    ("modal_motion.py", "pull - mode[W] *", "pull + mode[W] *", "dynamics/test_modal_motion.py"),
+    ("modal_motion.py", "mode[S + j] * (g[j] - level[j])", "mode[S + j] * (g[j] + level[j])",
+     "dynamics/test_modal_motion.py"),
+    ("modal_motion.py", "r0 - a * p", "r0 + a * p", "dynamics/test_modal_motion.py"),
+    ("modal_inputs.py", ".values) + read_at", ".values) - read_at",
+     "dynamics/test_modal_motion.py"),
     ("lamp_warmth.py", "part * (aim - warm[-1])", "part * (aim + warm[-1])",
      "dynamics/test_lamp_warmth.py"),
     ("timeline.py", "if steps > MOST_STEPS:", "if steps > MOST_STEPS + 1:",
@@ -258,6 +266,12 @@ ASSESSMENT = _of(
 
 ESTIMATION = (*_of(
     "estimation",
+    ("modes/residual_line.py", "+ np.log1p(x + x * x / 2) - x", "- np.log1p(x + x * x / 2) - x",
+     "estimation/modes/test_residual_line.py"),
+    ("modes/modal_response.py", "square, frequency**2) / 12.0", "square, frequency**2) / -12.0",
+     "estimation/modes/test_modal_response.py"),
+    ("modes/modal_fit.py", "-(by_theta.T @ r)", "(by_theta.T @ r)",
+     "estimation/modes/test_modal_fit.py"),
     ("output_error/kernels/gauss_newton.py", "cost += 0.5 * posed.coupling",
      "cost -= 0.5 * posed.coupling",
      "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
