@@ -42,7 +42,7 @@ FINE = 1.0  # sd, chosen: by which the data change in a difference
 BOLD = 1.0  # chosen: of ln |d| in a step
 COARSEST = 0.2  # natural sizes, chosen: of a difference
 TURNS, MOST = 3, 20  # chosen: fits until a motion and its modes agree; steps
-SETTLED = 0.02  # of chi-square, chosen
+SETTLED = 0.1  # of chi-square, chosen
 LEAST = 1e-9  # sqrt(kg) m, chosen: no coupling
 BOLDEST = 1e4  # chosen: damping of a step at which the search ends
 
@@ -53,7 +53,6 @@ class ModalFit:
 
     model: RecordModel
     theta: Floats  # natural sizes
-    by_theta: Floats  # (n, k) derivative of the residuals
     covariance: Square  # of theta
 
     @property
@@ -196,5 +195,18 @@ def fit_modes(model: RecordModel, modes: Sequence[FreeMode]) -> ModalFit:
             by_theta = search.derivative(here, theta)
         else:
             damping *= 10.0
-    covariance = np.linalg.inv(by_theta.T @ by_theta + np.diag(weights(theta)))
-    return ModalFit(here, theta, by_theta, covariance.astype(np.float64, copy=False))
+    return ModalFit(here, theta, covariance_of(by_theta, theta))
+
+
+def covariance_of(by_theta: Floats, theta: Floats) -> Square:
+    """Return (J^T J + P)^-1."""
+    information = by_theta.T @ by_theta + np.diag(weights(theta))
+    return np.linalg.inv(information).astype(np.float64, copy=False)
+
+
+def fit_at(model: RecordModel) -> ModalFit:
+    """Return what a model says of the modes that it is fitted with."""
+    search = Search(model, model.modes)
+    theta = vector_of(model.modes, search.first, search.moment)
+    search.derivative(model, theta)  # so that unknowns are varied as the record shows them
+    return ModalFit(model, theta, covariance_of(search.derivative(model, theta), theta))
