@@ -19,7 +19,7 @@ MOVED = 15.0  # s
 
 def modal_testbed(*modes: Mode) -> Testbed:
     """Return a testbed of 14 kg with one sliding mass, a camera and a gyro."""
-    level, body = np.zeros(3), MassProperties(14.0, COM, INERTIA)
+    level = np.zeros(3)
     attitude, rate = np.radians([4.0, -2.0, 30.0]), np.radians([0.6, -0.4, 1.2])
     truth = Truth(
         COM, COM, COM, INERTIA, 0.0, attitude, 0.0, rate, 0.0, {}, 0.0, 30.0, level, modes=modes

@@ -19,7 +19,7 @@ from equipoise.estimation.modes.modal_fit import (
     ModalFit,
     Search,
     directions,
-    fit_modes,
+    fit_at,
     size_of,
     sizes,
     total,
@@ -78,7 +78,7 @@ def with_modal_numbers(concluded: Estimate, model: RecordModel) -> Estimate:
     if not model.modes or not concluded.outcome.usable:
         return concluded
     search = Search(model, model.modes)
-    fit = fit_modes(model, model.modes)
+    fit = fit_at(model)
     factor = np.linalg.cholesky(fit.covariance)
     models = [search.at(fit.model, fit.theta + column) for column in factor.T]
     shifted = [conclude(one.fitted, METHOD, model.recording) for one in models]

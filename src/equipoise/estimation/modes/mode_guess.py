@@ -43,11 +43,11 @@ class Residual(NamedTuple):
 def residual_of(model: RecordModel) -> Residual:
     """Return what a fit leaves of the gyro's rows, or of a camera's where there is no gyro."""
     fitted, recording = model.fitted, model.fitted.problem.recording
-    seen = fitted.problem.observed
+    observed = fitted.problem.observed
     if recording.rate is not None:
-        return Residual(recording.rate.t, fitted.at.left_w * seen.rate_sd, True)
+        return Residual(recording.rate.t, fitted.at.left_w * observed.rate_sd, True)
     assert recording.attitude is not None
-    return Residual(recording.attitude.t, fitted.at.left_q * seen.attitude_sd, False)
+    return Residual(recording.attitude.t, fitted.at.left_q * observed.attitude_sd, False)
 
 
 def mode_of(line: Line, inertia: Matrix3, share: float, damping: float) -> Mode:
