@@ -60,7 +60,9 @@ def wheel(rng: np.random.Generator, platform: oracle.Platform) -> Part:
 
 
 def pendulum(rng: np.random.Generator, platform: oracle.Platform) -> Part:
-    """Return a bob of 1 % of the platform's mass that swings at 0.8 to 2 Hz: a liquid that sloshes.
+    """Return a bob of 0.02 % of the platform's mass that swings at 0.8 to 2 Hz: some cubic
+    centimetres that slosh. As elastic sag it raises com by m g / (W^2 M), 80 um at most: a bob of
+    1 % would turn the platform over.
 
     Its spring is soft: most of what draws it back is gravity.
     """
@@ -68,7 +70,7 @@ def pendulum(rng: np.random.Generator, platform: oracle.Platform) -> Part:
     axis = np.array([np.cos(heading), np.sin(heading), 0.0])
     W, z = 2 * np.pi * rng.uniform(0.8, 2.0), rng.uniform(0.002, 0.02)
     arm = 9.81 / (0.9 * W**2) * DOWN
-    mass = 0.01 * platform.mass
+    mass = 2e-4 * platform.mass
     moment = mass * float(arm @ arm) + LITTLE
     hinge = np.array([*rng.uniform(-0.1, 0.1, 2), rng.uniform(0.1, 0.2)]) - 0.5 * arm
     return Part(mass, hinge, axis, arm, LITTLE * np.eye(3), 0.1 * moment * W**2,

@@ -73,9 +73,11 @@ def cut_times(recording: Recording) -> Series1:
 def levelled_with_modes(model: RecordModel) -> RecordModel:
     """Return the model with which a search begins: its vertical, its lamp, and its modes.
 
-    A mode comes first: process noise and events would stand for it.
+    A mode comes first: process noise and events would stand for it. A motion that was not found
+    shows none.
     """
-    return with_modes(levelled(model))
+    found = levelled(model)
+    return with_modes(found) if is_near(found.fitted) else found
 
 
 def survey(

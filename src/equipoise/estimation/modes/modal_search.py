@@ -29,8 +29,11 @@ def another(model: RecordModel) -> RecordModel:
 
 
 def with_modes(model: RecordModel) -> RecordModel:
-    """Return the model with all modes that its record shows beside those that it has."""
-    while len(model.modes) < MOST and model.may(Stage.TERMS):
+    """Return the model with all modes that its record shows beside those that it has.
+
+    A fit that did not converge leaves more than noise and modes: nothing is sought in that.
+    """
+    while len(model.modes) < MOST and model.fitted.converged and model.may(Stage.TERMS):
         found = another(model)
         if found is model:
             break
