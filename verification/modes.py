@@ -27,7 +27,7 @@ from verification.stated_errors import stated_errors
 STATED = 120  # platforms for which the claim is stated
 FLOOR = 300.0  # S, from which a mode is to be found
 STRONGEST = {"wheel": 1e5, "pendulum": 3e3}  # S; more would be a swing beyond small angles
-KINDS = ("wheel", "pendulum", "rigid")
+KINDS = ("wheel", "rigid")  # a pendulum is not measured yet: its S needs a high-pass
 SPAN, MOVED = 60.0, 20.0  # s, of a record, and when the masses move
 CAMERA, NOISE = np.radians(0.02), np.radians(0.01)  # rad, rad/s
 NEAR = 0.01  # of a frequency, chosen: so near is the same mode
@@ -120,7 +120,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Identify one record for each seed."""
     runs = spread(partial(identified), seeds)
     groups = {kind: [run for run in runs if run.kind == kind] for kind in KINDS}
-    rows = [row_of_found(kind, groups[kind]) for kind in KINDS[:2] if groups[kind]]
+    rows = [row_of_found(kind, groups[kind]) for kind in KINDS[:-1] if groups[kind]]
     if groups["rigid"]:
         false = float(np.mean([bool(run.frequencies) for run in groups["rigid"]]))
         rows.append(at_most(f"modes of rigid platforms, of {len(groups['rigid'])}", false, 0.02))
