@@ -46,7 +46,7 @@ def test_the_names_are_those_of_the_issue():
         "read_testbed", "preset", "read_recording", "write_recording", "identify", "assess",
         "observe", "balance", "plan", "design", "calibrate", "compare", "simulate", "inertia",
         "SimulatedBench", "open_bench", "MassProperties", "Recording", "Estimate", "methods",
-        "laws", "export", "InputError",
+        "laws", "export", "InputError", "feed_forward", "ledger", "keep",
     }  # fmt: skip
     assert dir(eq) == sorted(eq.__all__)
 

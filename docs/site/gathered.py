@@ -12,7 +12,7 @@ FROM_ROOT = {
     "CONTRIBUTING.md": "project/contributing.md",
     "SECURITY.md": "project/reporting-security-faults.md",
 }
-KINDS = {".md", ".ipynb", ".png", ".svg", ".csv", ".toml"}
+KINDS = {".md", ".ipynb", ".png", ".svg", ".csv", ".toml", ".h"}
 UNREAD = {"site", "__pycache__"}  # folders of docs/ that hold no pages
 LINK = re.compile(r"\]\(([^)#\s]+)")
 

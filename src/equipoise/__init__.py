@@ -19,9 +19,11 @@ if TYPE_CHECKING:
     from equipoise.app.api.compare import compare
     from equipoise.app.api.design import design
     from equipoise.app.api.export import export
+    from equipoise.app.api.feed_forward import feed_forward
     from equipoise.app.api.files import preset, read_recording, read_testbed, write_recording
     from equipoise.app.api.identify import identify
     from equipoise.app.api.inertia import inertia
+    from equipoise.app.api.ledger import ledger
     from equipoise.app.api.observe import observe
     from equipoise.app.api.open_bench import open_bench
     from equipoise.app.api.plan import plan
@@ -33,7 +35,8 @@ if TYPE_CHECKING:
     from equipoise.simulation.bench import SimulatedBench
 
 VERBS = ("identify", "assess", "observe", "balance", "plan", "design", "calibrate", "compare",
-         "simulate", "open_bench", "inertia", "export")  # fmt: skip
+         "keep", "simulate", "open_bench", "inertia", "export", "feed_forward",
+         "ledger")  # fmt: skip
 HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "read_testbed": "equipoise.app.api.files",
     "preset": "equipoise.app.api.files",
@@ -61,9 +64,11 @@ __all__ = [
     "compare",
     "design",
     "export",
+    "feed_forward",
     "identify",
     "inertia",
     "laws",
+    "ledger",
     "methods",
     "observe",
     "open_bench",

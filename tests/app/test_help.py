@@ -13,6 +13,7 @@ COMMANDS = (
     "simulate",
     "inspect",
     "observe",
+    "ledger",
     "identify",
     "assess",
     "calibrate",

@@ -102,6 +102,7 @@ DONE = {
     "inspect": ("inspect", "RECORD", "--testbed", "BED", "--figure", f"{FILE}.svg"),
     "import": ("import", "RECORD", "--testbed", "BED"),
     "observe": ("observe", "RECORD", "--testbed", "BED"),
+    "ledger": ("ledger", "RECORD", "--testbed", "BED", "--out", f"{FILE} out"),
     "identify": ("identify", "RECORD", "--testbed", "BED", "--out", f"{FILE} out"),
     "assess": ("assess", "RECORD", "--testbed", "BED", "--json"),
     "convert": ("convert", "RECORD", f"{FILE} out.csv"),

@@ -9,6 +9,7 @@ Servos give way by g / SERVO^2, alike along three rails at right angles with ali
 isotropic sag, which turns nothing.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -62,7 +63,7 @@ class MujocoBench:
         self._stiffen()
         self._data.qpos[:4], self._data.qvel[:3] = platform.q, platform.rate
         self._steps, self._goal = 0, np.zeros(len(testbed.masses))
-        self._reported = self._goal.copy()
+        self._reported, self._speed = self._goal.copy(), math.inf
         self._dipole = np.zeros(len(testbed.magnetorquers))
         self._pulse = np.zeros(len(testbed.jets))  # N m s that is left of the last pulses
         self._given = np.zeros(len(testbed.jets))  # N m s since the last row of devices
@@ -101,12 +102,18 @@ class MujocoBench:
         return self._platform.com_at(self._reported)
 
     @property
+    def attitude(self) -> Array:
+        """The attitude now, body to laboratory."""
+        return self._data.qpos[:4].copy()
+
+    @property
     def tilt(self) -> float:
         """The angle between the body's z axis and the vertical, rad."""
         return float(np.arccos(np.clip(matrix(self._data.qpos[:4])[2, 2], -1.0, 1.0)))
 
-    def move(self, targets: Mapping[str, float]) -> None:
+    def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
         """Set masses on their way."""
+        self._speed = speed
         for name, goal in targets.items():
             self._goal[self._testbed.mass_names.index(name)] = goal
 
@@ -127,16 +134,20 @@ class MujocoBench:
 
     def read(self, duration: float) -> Recording:
         """Let time pass and return what was seen since the last read."""
-        speed = np.array([m.speed for m in self._testbed.masses])
+        speed = np.minimum([m.speed for m in self._testbed.masses], self._speed)
         for _ in range(round(duration / STEP)):
             way = self._goal - self._reported
             self._reported += np.clip(way, -speed * STEP, speed * STEP)
+            self._before_step()
             self._data.ctrl[self._slides] = self._reported
             self._data.qfrc_applied[:3] = self._from_coils() + self._from_jets()
             mujoco.mj_step(self._model, self._data)
             self._steps += 1
             self._measurement()
         return self._recording()
+
+    def _before_step(self) -> None:
+        """Let what surrounds the platform have its effect; there is nothing here."""
 
     def _from_coils(self) -> Array:
         """Return the torque of the coils in the laboratory's field, N m, body axes."""

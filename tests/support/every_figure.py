@@ -26,6 +26,7 @@ from equipoise.app.figures.estimate import (
     intervals,
     run_boxes,
     step_com,
+    torque_by_cause,
 )
 from equipoise.app.figures.estimate.run_boxes import Boxed
 from equipoise.app.figures.estimate.step_com import Mark, Wanted
@@ -113,6 +114,8 @@ def _of_estimates():
         for name, s in size.items()
     }  # fmt: skip
     yield "run_boxes", run_boxes.draw(boxed)
+    divided = eq.ledger(still, estimate, MOVED)
+    yield "torque_by_cause", torque_by_cause.draw(divided)
 
 
 def _story() -> Story:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
 
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.kernels.kernel_cache import PACKAGE, kernels_folder, stamp
 from equipoise.procedure.identification.identify import IdentifyOptions, identify

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from equipoise.app.text import json_document, json_lists, json_results
+from equipoise.app.text import json_document, json_lists, json_results, json_torque
 from equipoise.app.text.json_shape import Kind, name_of
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -12,7 +12,7 @@ FOLDER = Path(json_document.__file__).parent / "schemas"
 
 def declared() -> dict[str, Kind]:
     """Return every document that is declared, by its name."""
-    kinds = [kind for module in (json_document, json_lists, json_results)
+    kinds = [kind for module in (json_document, json_lists, json_results, json_torque)
              for kind in vars(module).values() if isinstance(kind, Kind)]  # fmt: skip
     return {name_of(kind): kind for kind in kinds if "schema" in kind.schema.get("properties", ())}
 

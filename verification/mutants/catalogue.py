@@ -158,6 +158,19 @@ DYNAMICS = _of(
 
 CONTROL = _of(
     "control",
+    *(("elements/gravity_feed_forward.py", text, broken,
+       "control/elements/test_gravity_feed_forward.py")
+      for text, broken in (
+          ("n: Vector3 = -to_matrix(q)[2]", "n: Vector3 = to_matrix(q)[2]"),
+          ("lead * now.drift + C @ n", "lead * now.drift - C @ n"),
+          ("now.com + lead * now.drift", "now.com - lead * now.drift"),
+          ("turned_on(now.q, now.rate, lead)", "turned_on(now.q, -now.rate, lead)"),
+          ("turned = heavy.mass * C @ skew(n)", "turned = -heavy.mass * C @ skew(n)"),
+          ("swung = skew(mu) @ skew(g)", "swung = -skew(mu) @ skew(g)"),
+          ("np.hstack([swung, lead * swung])", "np.hstack([swung, -lead * swung])"),
+          ("tau_sag = -skew(g) @ mu_sag", "tau_sag = 0 * skew(g) @ mu_sag"),
+          ("return bool(left <= max(", "return bool(left <= min("),
+      )),
     ("elements/attitude_pid.py", "multiply(conjugate(q), target)",
      "multiply(conjugate(target), q)", "control/elements/test_attitude_pid.py"),
     ("laws/ivanov_25s.py", "shift=target - estimate.com", "shift=target + estimate.com",
@@ -272,6 +285,19 @@ ESTIMATION = (*_of(
      "estimation/modes/test_modal_response.py"),
     ("modes/modal_fit.py", "-(by_theta.T @ r)", "(by_theta.T @ r)",
      "estimation/modes/test_modal_fit.py"),
+    *((f"torque_by_cause/{module}.py", text, broken, f"estimation/torque_by_cause/test_{test}.py")
+      for module, test, text, broken in (
+        ("gauss_markov", "gauss_markov", "info - P_u.T @ spread", "info + P_u.T @ spread"),
+        ("gauss_markov", "gauss_markov", "stay * chain.torque[k] - chain",
+         "stay * chain.torque[k] + chain"),
+        ("gauss_markov", "gauss_markov", "onward[k][at.free] -= ", "onward[k][at.free] += "),
+        ("gauss_markov", "gauss_markov", "score[chain.carrier] -= ", "score[chain.carrier] += "),
+        ("move_reaction", "stretch_torque", "- first[0] + integral", "- first[0] - integral"),
+        ("stretch_motion", "stretch_torque", "before - travel_of", "before + travel_of"),
+        ("stretch_torque", "stretch_torque", "value[cause.MOVES] -= ", "value[cause.MOVES] += "),
+        ("stretch_torque", "stretch_torque", "EPS * np.cross(at.g, axis)",
+         "EPS * np.cross(axis, at.g)"),
+    )),
     ("output_error/kernels/gauss_newton.py", "cost += 0.5 * posed.coupling",
      "cost -= 0.5 * posed.coupling",
      "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
@@ -489,6 +515,14 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
+    ("steps/gravity_feed_forward.py", "state.com + shift", "state.com - shift",
+     "procedure/steps/test_gravity_feed_forward.py"),
+    ("steps/gravity_feed_forward.py", "newest + lead - state.t)", "lead)",
+     "procedure/steps/test_gravity_feed_forward.py"),
+    ("steps/gravity_feed_forward.py", "if newest - state.t > SILENT", "if newest < state.t",
+     "procedure/steps/test_gravity_feed_forward.py"),
+    ("steps/gravity_feed_forward.py", "np.where(shown[:3], AGED**2, 0.0)",
+     "np.where(shown[:3], 0.0, AGED**2)", "procedure/steps/test_gravity_feed_forward.py"),
     ("identification/fitted_motion.py", "exponential(-left.values)", "exponential(left.values)",
      "procedure/identification/test_fitted_motion.py"),
     ("identification/fitted_motion.py", "(rows.values - bias) @", "(rows.values + bias) @",
@@ -615,6 +649,20 @@ STUDY = _of(
 
 IO = _of(
     "io",
+    *(("stream/gravity_datagram.py", text, broken, "io/stream/test_gravity_datagram.py")
+      for text, broken in (
+          ("1.0 - (age - hold) / FADE)", "1.0 - age / FADE)"),
+          ("(found.sequence - last.sequence)", "(last.sequence - found.sequence)"),
+          ('struct.Struct("<"', 'struct.Struct(">"'),
+          ("content.torque, content.torque_sd,", "content.torque_sd, content.torque,"),
+      )),
+    *(("stream/gravity_torque_template.h", text, broken, "io/stream/test_c_header.py")
+      for text, broken in (
+          ("(mu[1] * g[2] - mu[2] * g[1])", "(mu[2] * g[1] - mu[1] * g[2])"),
+          ("1.0 - (age_s - hold_s)", "1.0 - (age_s + hold_s)"),
+          ("k = bytes - 1; k >= 0; --k", "k = 0; k < bytes; ++k"),
+          ("found->sequence - last->sequence", "last->sequence - found->sequence"),
+      )),
     ("exchange/product_sign.py", '"integrals": -1.0}', '"integrals": 1.0}',
      "io/exchange/test_foreign_bodies.py"),
     ("exchange/product_sign.py", "_relative(sign * printed - due, due)",
@@ -697,6 +745,8 @@ CONVERSATION = "hardware/boards/test_grbl_conversation.py"
 SOAK = "hardware/boards/test_board_soak.py"
 HARDWARE = _of(
     "hardware",
+    ("transport/datagram_sink.py", "self.lost += 1", "raise",
+     "hardware/transport/test_datagram_sink.py"),
     ("links/frame_transform.py", "return values @ unit.alignment.T",
      "return values @ unit.alignment", "hardware/sensors/test_sensors.py"),
     ("links/mass_interpolation.py", "if gap < LATE and", "if",
@@ -822,6 +872,8 @@ APP = _of(
      "app/charts/test_charts.py"),
     ("charts/of_residuals.py", "column / noise, edges", "column * noise, edges",
      "app/charts/test_charts.py"),
+    ("live/feed_forward.py", "self._estimate = self._begin", "raise",
+     "app/live/test_feed_forward.py"),
     ("text/testbed_comparison.py", "normalised_difference(parameter, other) if",
      "normalised_difference(other, parameter) if", "app/charts/test_charts.py"),
 )  # fmt: skip

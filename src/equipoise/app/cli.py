@@ -30,7 +30,9 @@ from equipoise.app.commands.identify import identify
 from equipoise.app.commands.import_ import import_
 from equipoise.app.commands.inertia import inertia
 from equipoise.app.commands.inspect import inspect
+from equipoise.app.commands.keep import keep
 from equipoise.app.commands.laws import laws
+from equipoise.app.commands.ledger import ledger
 from equipoise.app.commands.logbook import logbook
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
@@ -75,8 +77,8 @@ app = App(
 GROUPS: dict[str, tuple[Callable[..., int], ...]] = {
     "Start": (demo, new, dashboard),
     "Recordings": (simulate, import_, inspect, convert, repair, replay, track),
-    "Identification": (identify, calibrate, inertia, assess, observe, methods),
-    "Balancing": (balance, laws),
+    "Identification": (identify, calibrate, inertia, assess, ledger, observe, methods),
+    "Balancing": (balance, keep, laws),
     "Planning": (plan, design),
     "Hardware": (devices, check, record, emulate, print_board, calibrate_camera),
     "Studies": (compare, reproduce),

@@ -1,5 +1,6 @@
 """The bench protocol: what simulated, replayed and real benches have in common."""
 
+import math
 from collections.abc import Mapping
 from typing import Protocol, runtime_checkable
 
@@ -25,8 +26,11 @@ class Bench(Protocol):
         """Wait ``duration`` seconds and return what was recorded since the last read."""
         ...
 
-    def move(self, targets: Mapping[str, float]) -> None:
-        """Set masses on their way to displacements from home (m); later reads show the travel."""
+    def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
+        """Set masses on their way to displacements from home (m); later reads show the travel.
+
+        None of them travels faster than ``speed`` (m/s), nor than its drive can.
+        """
         ...
 
     def drive(self, inputs: Mapping[str, float]) -> None:

@@ -22,6 +22,12 @@ def check_duration(duration: float) -> None:
         raise InputError("read", f"a duration of {duration} s", "zero or more seconds")
 
 
+def check_speed(speed: float) -> None:
+    """Raise InputError for a speed (m/s) at which no mass arrives."""
+    if not speed > 0:
+        raise InputError("move", f"a speed of {speed} m/s", "more than zero m/s")
+
+
 def checked_inputs(devices: Sequence[Device], inputs: Mapping[str, float]) -> dict[int, float]:
     """Return what devices are given, by index.
 

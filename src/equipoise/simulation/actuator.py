@@ -81,6 +81,11 @@ def checked(
     return checked_targets(masses, displacement(travel, now)[REPORTED], targets)
 
 
+def slowed(masses: Sequence[SlidingMass], speed: float) -> Sequence[SlidingMass]:
+    """Return the masses, none of them faster than ``speed`` (m/s)."""
+    return [replace(mass, speed=min(mass.speed, speed)) for mass in masses]
+
+
 def gain_of(faults: Sequence[Fault], name: str, move: int) -> float:
     """Return the share of its way that a mass goes in a move, counted from 1."""
     shown = [fault for fault in faults if fault.mass == name and fault.from_move <= move]

@@ -13,6 +13,7 @@ moved as it must have to be at its first attitude and rate at time zero.
 At the tilt limit the platform meets its stop (``simulation.stop``).
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -29,7 +30,7 @@ from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Matrix3, Series1, Series3, Vector3
-from equipoise.model.bench_requests import check_duration
+from equipoise.model.bench_requests import check_duration, check_speed
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
@@ -145,9 +146,10 @@ class SimulatedBench:
         self._advance(t, path)
         return recording
 
-    def move(self, targets: Mapping[str, float]) -> None:
+    def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
         """Set masses on their way to displacements from home (m); all of them or none."""
-        masses, faults = self.platform.masses, self.platform.truth.faults
+        check_speed(speed)
+        masses, faults = actuator.slowed(self.platform.masses, speed), self.platform.truth.faults
         goals = actuator.checked(self._travel, self._time, targets, masses)
         travel = actuator.sent(self._travel, self._time, goals, masses, faults, self._stops_rng)
         self._command(travel)

@@ -9,6 +9,7 @@
 The law, and the verdict it ends with, know none of this.
 """
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
@@ -75,9 +76,9 @@ class CountedBench(SimulatedBench):
         self.travel = 0.0
         self.moves, self.sent = 0, 0.0  # s, when the last one began
 
-    def move(self, targets: Mapping[str, float]) -> None:
+    def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
         """Move, and count."""
-        super().move(targets)
+        super().move(targets, speed)
         self.moves, self.sent = self.moves + 1, self.time
 
     def read(self, duration: float) -> Recording:

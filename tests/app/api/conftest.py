@@ -71,4 +71,5 @@ def returned(tmp_path_factory) -> Returned:
         "inertia": eq.inertia(parts_file(path.with_name("parts.toml"))),
     }
     results["Estimate"] = results["identify"].estimate
+    results["ledger"] = eq.ledger(recording, results["assess"].estimate, bed)
     return Returned(path, results)

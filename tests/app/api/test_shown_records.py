@@ -22,9 +22,9 @@ MOST_LINES = 12
 WIDEST = 1000  # letters of a line; the longest holds one sentence
 KINDS = ("Recording", "Testbed", "MassProperties", "Estimate", "identify", "assess", "observe",
          "design", "balance", "plan", "compare", "methods", "laws",
-         "identify several", "inertia")  # fmt: skip
+         "identify several", "inertia", "ledger")  # fmt: skip
 DRAWN = ("Recording", "MassProperties", "Estimate", "identify", "assess", "design", "balance",
-         "identify several", "inertia")  # fmt: skip
+         "identify several", "inertia", "ledger")  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", KINDS)

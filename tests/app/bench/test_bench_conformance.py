@@ -149,6 +149,28 @@ def test_masses_that_obey_go_at_their_speed_to_where_they_are_sent(shown):
     assert end.values[-1] == pytest.approx([4 * MM, 0.0, -2 * MM], abs=2e-6)
 
 
+def test_no_mass_goes_faster_than_a_move_allows_and_later_ones_go_as_usual(shown):
+    """At 0.2 mm/s instead of 8 mm/s, x takes 2 s for 0.4 mm, and y as long for the same way."""
+    bench = shown.bench
+    bench.read(0.2)
+    bench.move({"x": 0.4 * MM, "y": -0.4 * MM}, 0.2 * MM)
+    if not shown.obeys:
+        return
+    half = bench.read(1.0).masses.values[-1]
+    assert 0.1 * MM < half[0] < 0.25 * MM
+    assert half == pytest.approx([half[0], -half[0], 0.0], abs=2e-5)
+    assert bench.read(1.6).masses.values[-1] == pytest.approx([0.4 * MM, -0.4 * MM, 0.0], abs=2e-6)
+    bench.move({"x": 4 * MM})
+    assert bench.read(0.9).masses.values[-1] == pytest.approx([4 * MM, -0.4 * MM, 0.0], abs=2e-6)
+
+
+@pytest.mark.parametrize("speed", [0.0, -1e-3, float("nan")])
+def test_a_speed_at_which_no_mass_arrives_is_refused(shown, speed):
+    with pytest.raises(InputError, match=r"more than zero m/s"):
+        shown.bench.move({"x": 1 * MM}, speed)
+    shown.bench.read(0.1)
+
+
 def test_who_stops_finds_the_masses_standing(shown):
     bench = shown.bench
     bench.read(0.2)

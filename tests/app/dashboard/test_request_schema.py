@@ -16,6 +16,7 @@ from equipoise.model.errors import InputError
 TOKEN, PAGE = "the-token", "a"
 RIGHT = {
     "Balance": requests.Balance((0.0, 0.0, -1e-4), (2e-6, 2e-6, 3e-6), "measure_and_move"),
+    "Stand": requests.Stand(True),
     "Identify": requests.Identify("auto"),
     "Stop": requests.Stop(),
     "Jog": requests.Jog("x", 0.003),

@@ -1,5 +1,6 @@
 """Every law of the registry keeps the same promises, whoever wrote it."""
 
+import math
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cache
 from typing import Any
@@ -59,7 +60,7 @@ class GuardedBench(SimulatedBench):
         super().__init__(testbed, seed)
         self.refused: list[str] = []
 
-    def move(self, targets):
+    def move(self, targets, speed=math.inf):
         self._noted(super().move, targets)
 
     def drive(self, inputs):

@@ -9,10 +9,11 @@ import pytest
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.estimation.tracker import event_signatures as onsets
 from equipoise.estimation.tracker.kernel_records import new_tools
+from equipoise.estimation.tracker.known_inputs import inputs_kept, inputs_of
 from equipoise.estimation.tracker.measurements import Rows, followed_by
 from equipoise.estimation.tracker.stored_covariance import SIZE, WARM_ROW
 from equipoise.estimation.tracker.tracker import Params, first_state, steady, track
-from equipoise.estimation.tracker.warmth import heat_kept, heat_of, unknown_warmth, warmth_of
+from equipoise.estimation.tracker.warmth import unknown_warmth, warmth_of
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, Samples, window
@@ -60,11 +61,11 @@ def test_what_later_rows_need_is_kept():
     warm = samples([0.0, 1.0, 2.0, 3.0], [20.0, 21.0, 22.0, 23.0])
     power = samples([0.0, 5.0, 7.0, 8.0, 9.0], [0.0, 0.0, 1.0, 1.0, 1.0])
     heat = Recording(temperature=warm, lamp=power)
-    kept = heat_kept(heat, 2.5)
+    kept = inputs_kept(heat, 2.5)
     np.testing.assert_array_equal(kept.temperature.t, [2.5, 3.0])
     np.testing.assert_array_equal(kept.temperature.values[:, 0], [22.5, 23.0])
     np.testing.assert_array_equal(kept.lamp.t, [0.0, 7.0, 9.0])
-    grown = heat_of(kept, Recording(lamp=samples([9.0, 12.0], [1.0, 0.0])))
+    grown = inputs_of(kept, Recording(lamp=samples([9.0, 12.0], [1.0, 0.0])))
     np.testing.assert_array_equal(grown.lamp.t, [0.0, 7.0, 9.0, 12.0])
     np.testing.assert_array_equal(grown.temperature.t, [2.5, 3.0])
 

@@ -106,6 +106,22 @@ def test_a_long_way_is_gone_without_a_pause_between_legs(kind, turn):
 
 
 @every_board
+def test_a_mass_creeps_when_it_is_asked_to(kind):
+    """60 um at 20 um/s take 3 s at least, and never is it a leg further than that."""
+    wire = Wire(kind).at_home()
+    begun = wire.t
+    wire.driver.go({"x": 0.06 * MM}, begun, 0.02 * MM)
+    wire.run(6.0, until="ready")
+    t = np.arange(begun, wire.t, 0.01)
+    way = np.array([wire.true("x", k) for k in t])
+    assert np.all(way <= 0.02 * MM * (t - begun + LEG))
+    assert 0.9 < (wire.t - begun) / 3.0 < 1.4
+    assert wire.true("x") == pytest.approx(0.06 * MM, abs=2e-6)
+    wire.driver.go({"x": 8.06 * MM}, wire.t)
+    assert wire.run(1.5).position["x"] == pytest.approx(8.06 * MM, abs=2e-6)
+
+
+@every_board
 @pytest.mark.parametrize("turn", [0.002, 0.01])
 def test_a_halt_stops_at_once_and_the_position_stays_known(kind, turn):
     """It says that it is ready when the masses stand."""

@@ -13,8 +13,10 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView, drawn_address
+from equipoise.io.stream.gravity_message import message_of
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
+from equipoise.model.gravity_torque import GravityTorque, TorqueStatus
 from equipoise.model.recording import Recording, Samples
 from tests.support.protobuf_by_schema import decoded
 
@@ -173,3 +175,28 @@ def test_the_layout_that_is_shipped_shows_the_topics_there_are():
     assert {name.partition("!")[0] for name in panels} >= {"3D", "Plot", "RosOut"}
     for topic in ("/rate", "/masses", "/log", "/scene"):
         assert topic in layout
+
+
+def test_a_torque_to_feed_forward_has_a_topic_of_its_own():
+    """Its numbers by the names of the datagram; it is no event, of which people read a sentence."""
+    numbers = np.arange(15.0).reshape(5, 3)
+    data = message_of(GravityTorque(0.25, 0.06, *numbers, TorqueStatus.USABLE))
+    with LiveView(ZERO, port=0) as view:
+        view.event(0.25, "gravity_torque", "", data)
+        with connect(view.address, subprotocols=[PROTOCOL]) as client:
+            offered = offered_by(client, "/gravity_torque")
+            assert offered.keys() == {"/gravity_torque"}
+            schema = json.loads(offered["/gravity_torque"]["schema"])
+            assert schema["properties"].keys() == {"timestamp", *data}
+            wanted = {"id": 1, "channelId": offered["/gravity_torque"]["id"]}
+            client.send(json.dumps({"op": "subscribe", "subscriptions": [wanted]}))
+            until, observed = time.monotonic() + PATIENCE, b""
+            while not observed and time.monotonic() < until:
+                view.event(0.25, "gravity_torque", "", data)
+                with suppress(TimeoutError):
+                    message = client.recv(0.05)
+                    observed = message if isinstance(message, bytes) and message[0] == 1 else b""
+    sent = json.loads(observed[13:])
+    assert sent["timestamp"] == {"sec": ZERO // 10**9, "nsec": 250_000_000}
+    assert sent["torque_sd_N_m"] == [3.0, 4.0, 5.0]
+    assert (sent["status"], sent["bench_time_s"], sent["lead_s"]) == ("usable", 0.25, 0.06)

@@ -1,6 +1,7 @@
 """A live recording survives a kill and a full disk, and says what it holds."""
 
 import errno
+import json
 import os
 import subprocess
 import sys
@@ -59,6 +60,28 @@ def test_an_event_is_in_the_file_at_once(tmp_path):
     assert observed.rate is not None
     assert len(observed.rate) == 10
     assert "no end" in " ".join(observed.notes)
+
+
+def test_a_torque_that_is_fed_forward_is_recorded_beside_the_rows(tmp_path):
+    """In a topic of its own, no event among those for people; it ends no chunk early."""
+    path = tmp_path / "run.mcap"
+    with LiveRecording(path, OPENING) as file:
+        file.rows(rows(0, 1))
+        file.event(0.0, "gravity_torque", "", {"torque_N_m": [0.0, 0.0, 0.0]})  # opens the topic
+        size = path.stat().st_size
+        for k in range(1, 4):
+            file.rows(rows(k, 1))
+            file.event(k / 100, "gravity_torque", "", {"torque_N_m": [k * 1e-4, 0.0, -1e-5]})
+        assert path.stat().st_size == size
+    with path.open("rb") as stream:
+        found = [
+            (message.log_time - NOON, json.loads(message.data)["torque_N_m"])
+            for _, _, message in make_reader(stream).iter_messages(topics="/gravity_torque")
+        ]
+    expected = [(k * 10_000_000, [k * 1e-4, 0.0, -1e-5 if k else 0.0]) for k in range(4)]
+    assert found == expected
+    assert events_of(path) == ()
+    assert len(read_recording(path).rate) == 4
 
 
 def test_rows_are_in_the_file_after_half_a_second(tmp_path):

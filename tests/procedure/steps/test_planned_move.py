@@ -10,7 +10,7 @@ from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.units import UM
-from equipoise.procedure.balancing.hold_posterior import before_moving
+from equipoise.procedure.balancing.hold_posterior import before_moving, standing
 from equipoise.procedure.steps.choose_move import option_for
 from equipoise.procedure.steps.displacement_choice import displacements_for
 from equipoise.procedure.steps.joint_fit import learn, stood, without_stops
@@ -67,8 +67,9 @@ def test_while_holding_a_mass_away_from_home_takes_a_stop_along():
     """x leaves where it stopped; y stays put; z leaves home, where it has no error."""
     now, goal = np.array([1e-2, 5e-3, 0.0]), np.array([0.0, 5e-3, 1e-3])
     state = tracker.first_state(0.0, np.array([1.0, 0, 0, 0]), bed())
-    _, found = before_moving(state, bed(), now, goal)
-    before = before_moving(state, bed(), now, now)[1]
+    measured = standing(state, bed(), now)
+    _, found = before_moving(measured, bed(), now, goal)
+    before = before_moving(measured, bed(), now, now)[1]
     np.testing.assert_allclose(found - before, stop(bed().masses[0]), atol=1e-18)
 
 

@@ -65,7 +65,7 @@ class Bench:
     def stop(self):
         self.stopped = True
 
-    def move(self, targets):
+    def move(self, targets, speed=0.0):
         raise AssertionError(targets)
 
     drive = move

@@ -1,5 +1,6 @@
 """A bench that stands before another one and passes on what it does not do itself; a memory."""
 
+import math
 from collections.abc import Mapping
 
 from equipoise.model.bench import Bench
@@ -24,9 +25,9 @@ class OuterBench:
         """Bench time, s."""
         return self._bench.time
 
-    def move(self, targets: Mapping[str, float]) -> None:
-        """Set masses on their way (m)."""
-        self._bench.move(targets)
+    def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
+        """Set masses on their way (m), no faster than ``speed`` (m/s)."""
+        self._bench.move(targets, speed)
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Give devices their inputs."""

@@ -1,6 +1,6 @@
 """A real bench as a command uses it: wired, locked, recorded, in a process of its own."""
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -118,12 +118,24 @@ def periods_of(testbed: Testbed) -> dict[Gives, float]:
     return {channel: 1.0 / rate if rate else 0.0 for channel, rate in stated.items()}
 
 
+def sent_back(bench: RealBench, standing: Mapping[str, float]) -> None:
+    """Send masses from home to where they stood (m), and wait until they are there."""
+    bench.move(standing)
+    ways = [abs(standing[mass.name]) / mass.speed for mass in bench.testbed.masses]
+    bench.read(max(ways, default=0.0) + HAND)
+
+
 @contextmanager
-def real_bench(wanted: Wanted, let_go: Callable[[], None] | None = None) -> Generator[RealBench]:
+def real_bench(
+    wanted: Wanted,
+    let_go: Callable[[], None] | None = None,
+    standing: Mapping[str, float] | None = None,
+) -> Generator[RealBench]:
     """Return the bench, ready: every device answers, masses are at home, sensors give rows.
 
-    ``let_go`` is called when masses are at home; the platform is taken to be free ``HAND`` later.
-    Without it masses stay where they are, and nothing can be moved.
+    ``let_go`` is called when masses are at home, or at displacements (m) where they stood before;
+    the platform is taken to be free ``HAND`` later. Without it masses stay where they are, and
+    nothing can be moved.
     When the block ends, however it ends, masses are halted and the record is closed.
     """
     distant = DistantKeeper(wanted.testbed, KeptBench, wanted)
@@ -131,6 +143,8 @@ def real_bench(wanted: Wanted, let_go: Callable[[], None] | None = None) -> Gene
         bench = RealBench(distant, distant)
         if let_go is not None:
             bench.start()
+            if standing is not None:
+                sent_back(bench, standing)
             let_go()
             bench.read(HAND)
         bench.watch()

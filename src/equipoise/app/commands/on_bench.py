@@ -1,6 +1,6 @@
 """Options of a balancing on the real bench, and how it is begun."""
 
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -79,15 +79,21 @@ def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", requested: OnBench) 
 
 
 @contextmanager
-def let_go(bed: "Testbed", requested: OnBench) -> "Generator[Bench]":
-    """Return the real platform, masses at home, let go, and every sensor giving rows."""
+def let_go(
+    bed: "Testbed", requested: OnBench, standing: "Mapping[str, float] | None" = None
+) -> "Generator[Bench]":
+    """Return the real platform, let go, and every sensor giving rows.
+
+    Masses are at home, or at displacements (m) where they stood before.
+    """
     from equipoise.app.bench.open_bench import Wanted, real_bench
 
     def say() -> None:
-        stderr().print("Masses are at home: release the platform.", style="bold")
+        where = "at home" if standing is None else "where they stood"
+        stderr().print(f"Masses are {where}: release the platform.", style="bold")
 
     with ExitStack() as held:
         with busy("the masses go home", announce=True):
             wanted = Wanted(bed, requested.record, requested.foxglove)
-            bench = held.enter_context(real_bench(wanted, say))
+            bench = held.enter_context(real_bench(wanted, say, standing))
         yield bench

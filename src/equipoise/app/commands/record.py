@@ -4,6 +4,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from equipoise.app.arguments.feeding import NOT_FED, Feeding, receiver_of
 from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import announced, busy, show_paths
 
@@ -11,7 +12,15 @@ if TYPE_CHECKING:
     from equipoise.model.bench import Bench
 
 
-def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Flag = False) -> int:
+def record(
+    testbed: str,
+    /,
+    *,
+    out: Path,
+    duration_s: float = 60.0,
+    foxglove: Flag = False,
+    feeding: Feeding = NOT_FED,
+) -> int:
     """Record every sensor of a real bench without moving a mass.
 
     Rows are written as they arrive: what is older than a second survives any failure. Ctrl-C ends
@@ -31,15 +40,17 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
     from equipoise.app.arguments.checks import positive
     from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.bench.open_bench import Wanted, real_bench
+    from equipoise.app.live.feed_forward import fed
     from equipoise.io.files.append_file import check_new
 
     duration = positive("--duration-s", duration_s)
     bed = announced(testbed_from(testbed))
     check_new(out)
+    receiver = receiver_of(feeding)
     with ExitStack() as held:
         with busy("reaching the bench", announce=False):
             bench = held.enter_context(real_bench(Wanted(bed, out, foxglove)))
-        _record(bench, out, duration)
+        _record(held.enter_context(fed(bench, receiver, bench.note)), out, duration)
     show_paths([out])
     return 0
 

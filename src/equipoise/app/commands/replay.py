@@ -3,11 +3,13 @@
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from equipoise.app.arguments.feeding import NOT_FED, Feeding, receiver_of
 from equipoise.app.arguments.options import WHOLE, Flag, Reading, Whole
 from equipoise.app.console.terminal import announced, busy, stdout
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
+    from equipoise.app.arguments.feeding import Receiver
     from equipoise.app.arguments.recorded_run import RecordedRun
     from equipoise.app.live.observed_bench import Onlooker
 
@@ -21,13 +23,15 @@ def replay(
     terminal: Flag = False,
     speed: float | None = None,
     foxglove: Flag = False,
+    feeding: Feeding = NOT_FED,
     reading: Reading = WHOLE,
 ) -> int:
     """Open a run or a recording in the browser: the whole of it, with its steps.
 
     The page plays the motion back, zooms, and saves charts as PNG and CSV. It commands nothing.
-    Ctrl-C ends it. With --terminal or --foxglove the recording is played back at its own speed
-    instead. Where output is not a terminal, one line is printed for every second of it.
+    Ctrl-C ends it. With --terminal, --foxglove or --feed-forward the recording is played back at
+    its own speed instead. Where output is not a terminal, one line is printed for every second of
+    it.
 
     Parameters
     ----------
@@ -48,7 +52,8 @@ def replay(
     from equipoise.app.arguments.checks import not_negative
     from equipoise.app.arguments.recorded_run import recorded_run
 
-    paced = terminal or foxglove
+    receiver = receiver_of(feeding)
+    paced = terminal or foxglove or receiver is not None
     if speed is not None and not paced:
         raise InputError("--speed", f"{speed:g}", "--terminal with it: the page has its own speed")
     if not 0 <= port < 65536:
@@ -56,7 +61,8 @@ def replay(
     run = recorded_run(shown, testbed, reading)
     announced(run.testbed)
     if paced:
-        _played(run, 1.0 if speed is None else not_negative("--speed", speed), foxglove)
+        speed = 1.0 if speed is None else not_negative("--speed", speed)
+        _played(run, speed, foxglove, receiver)
     else:
         _viewed(run, port)
     return 0
@@ -79,20 +85,27 @@ def _viewed(run: "RecordedRun", port: int) -> None:
             viewer.serve()
 
 
-def _played(run: "RecordedRun", speed: float, foxglove: bool) -> None:
-    """Play a recording back in the terminal, and to a viewer that connects."""
+def _played(run: "RecordedRun", speed: float, foxglove: bool, receiver: "Receiver | None") -> None:
+    """Play a recording back in the terminal, to a viewer that connects, and to a controller."""
     from contextlib import ExitStack
 
+    from equipoise.app.live.feed_forward import DatagramStream, FeedForward, Listener, as_events
     from equipoise.app.live.replay import begun, replayed, shown_lines
 
     bed = run.testbed
     pace, zero_ns = begun(run.recording, speed)
     with ExitStack() as stack:
         onlookers: dict[str, Onlooker] = {"the terminal": stack.enter_context(shown_lines(bed))}
+        listeners = list[Listener]()
         if foxglove:
             from equipoise.io.mcap.foxglove_server import LAYOUT, LiveView
 
             view = stack.enter_context(LiveView(zero_ns, bed))
             stdout().print(f"Foxglove WebSocket: {view.address}; layout: {LAYOUT}")
             onlookers["the live view"] = view.rows
+            listeners.append(as_events(view.event))
+        if receiver is not None:
+            stream = DatagramStream(receiver.host, receiver.port)
+            listeners.append(stack.enter_context(stream))
+            onlookers["the feed-forward"] = FeedForward(bed, receiver.given, *listeners)
         replayed(bed, run.recording, pace, onlookers)

@@ -35,7 +35,9 @@ from equipoise.procedure.balancing.catalogue import (
     balanced_by,
     planned_and_balanced,
 )
-from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
+from equipoise.procedure.balancing.hold import MEASUREMENT, HoldOptions, balance_and_hold
+from equipoise.procedure.balancing.motion_budget import NO_LIMIT, MotionBudget
+from equipoise.procedure.balancing.schedule import ALWAYS, Schedule
 from equipoise.procedure.identification.record_courses import RecordCourses, balancing_courses
 from equipoise.simulation.bench import SimulatedBench
 
@@ -95,6 +97,9 @@ class Limits:
     law: str = OWN.name
     plan: Manoeuvre | None = None  # to begin with
     budget: Budget = UNLIMITED  # of each fit
+    motion: MotionBudget = NO_LIMIT  # of a hold
+    schedule: Schedule = ALWAYS  # of a hold
+    every: float = MEASUREMENT  # s between the decisions of a hold
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -189,7 +194,8 @@ def requested_stop(bench: Bench, stop: KeyboardInterrupt, reported: str) -> Step
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     """Return the steps of balancing and, when that passes and a hold is requested, of holding."""
     aim, budget = (goal.target, goal.tolerance), limits.budget
-    holding = HoldOptions(*aim, duration=limits.hold, budget=budget)
+    holding = HoldOptions(*aim, duration=limits.hold, budget=budget, motion=limits.motion,
+                          schedule=limits.schedule, every=limits.every)  # fmt: skip
     usual = holding.balancing if limits.hold > 0 else BalanceOptions(*aim, budget=budget)
     moves = usual.max_moves if limits.max_moves is None else limits.max_moves
     balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)

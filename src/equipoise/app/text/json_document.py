@@ -206,6 +206,19 @@ BALANCED = (
 )
 BALANCE = document("equipoise/balance/2", *BALANCED)
 
+# What a balance that is kept for hours comes to; truth only where it is simulated.
+KEEP = document(
+    "equipoise/keep/1",
+    *fields("steps", many(STEP)),
+    *fields("verdict", VERDICT),
+    *fields("moves", COUNT),
+    *fields("travel_m=travel", NUMBER),
+    *fields("t_s=t", VECTOR, "course"),
+    *fields("com_m=values sd_m=sd", MATRIX, "course"),
+    *fields("truth_m=truth", maybe(MATRIX)),
+    *fields("provenance", by_name(TEXT)),
+)
+
 BALANCE_SERIES = document(
     "equipoise/balance_series/1",
     *fields("verdict", VERDICT),

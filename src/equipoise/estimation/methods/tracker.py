@@ -5,6 +5,8 @@ part of it. The intervals allow for a centre of mass that drifts, and on a platf
 they are wider than need be.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from equipoise.actuators.sliding_masses import shift_by
@@ -81,13 +83,18 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     recording, first = arranged(recording, testbed.mass_names), recording.attitude
     state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
     track = tracker.track(recording, testbed, tracker.Params(), state)
+    found = estimate_at_end(track, testbed, shift_at_end(recording, testbed))
+    return replace(found, provenance=origin_of(recording))
+
+
+def estimate_at_end(track: tracker.Track, testbed: Testbed, shift: Vector3) -> Estimate:
+    """Return the estimate after the last row, with masses that shift com by so much (m)."""
     posterior = track.end.posterior
     return Estimate(
         METHOD.card.name,
         outcome_of(track, testbed.body.mass),
-        parameters_of(posterior, shift_at_end(recording, testbed)),
+        parameters_of(posterior, shift),
         posterior.covariance,
-        provenance=origin_of(recording),
         course=com_course(track),
         rate_course=rate_course(track),
     )

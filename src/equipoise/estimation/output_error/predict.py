@@ -61,6 +61,19 @@ def run(
     return PredictedMotion(rows.t, motion.q[line.attitude_node], motion.rate[line.attitude_node])
 
 
+def timed_as_found(
+    testbed: Testbed, found: Mapping[str, float]
+) -> tuple[Testbed, dict[str, float]]:
+    """Return the testbed with its rows of masses as late as found, and what else was found."""
+    lags, left = [name for name in found if name.startswith(LAG)], dict(found)
+    if lags:
+        testbed = replace(testbed, masses=logged_late(testbed.masses))
+    if len(lags) == 1:
+        testbed = replace(testbed, masses=lagging(testbed.masses, found[lags[0]]))
+        left[lags[0]] = 0.0
+    return testbed, left
+
+
 def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> PredictedMotion:
     """Return what an estimate of the trajectory method says of its own record.
 
@@ -70,13 +83,7 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
     torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
     q0 = exponential(estimate.values(ATTITUDE))
-    found = {p.name: p.value for p in estimate.parameters}
-    lags = [name for name in found if name.startswith(LAG)]
-    if lags:
-        testbed = replace(testbed, masses=logged_late(testbed.masses))
-    if len(lags) == 1:
-        testbed = replace(testbed, masses=lagging(testbed.masses, found[lags[0]]))
-        found[lags[0]] = 0.0
+    testbed, found = timed_as_found(testbed, {p.name: p.value for p in estimate.parameters})
     motion = run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
     shown = np.empty_like(motion.q)
     sensor = np.array([found.get(term, 0.0) for term in sensor_terms.TERMS])

@@ -47,18 +47,13 @@ from equipoise.dynamics.lamp_warmth import temperature_until
 from equipoise.dynamics.propagation import rigid_body, stacked
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.estimation.tracker.kernel_records import EVENTS, Model, Place, Written
+from equipoise.estimation.tracker.known_inputs import inputs_kept, inputs_of, with_inputs
 from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.estimation.tracker.measurements import rows_of
 from equipoise.estimation.tracker.predict_correct import BODY, COM, WARM
 from equipoise.estimation.tracker.relinearisation import Memory, follow
 from equipoise.estimation.tracker.stored_covariance import SIZE
-from equipoise.estimation.tracker.warmth import (
-    Warmth,
-    heat_kept,
-    heat_of,
-    unknown_warmth,
-    warmth_of,
-)
+from equipoise.estimation.tracker.warmth import Warmth, unknown_warmth, warmth_of
 from equipoise.maths.chi_square import chi_square_limit
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
@@ -122,7 +117,7 @@ class State:
     memory: Memory | None = None  # of the rows before; None: this is where tracking begins
     drift: Vector3 = field(default_factory=nothing)  # m/s, of com
     thermal: Vector3 = field(default_factory=nothing)  # m/K
-    heat: Recording | None = None  # temperature and lamp so far, as far as later rows need them
+    inputs: Recording | None = None  # masses, momentum, lamp and the like, as later rows need them
 
     @property
     def noise_levels(self) -> Floats:
@@ -247,15 +242,17 @@ def track(recording: Recording, testbed: Testbed, params: Params, state: State) 
     posterior = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
                              state.bias, state.drift, state.thermal])  # fmt: skip
     speed, fed = float(np.linalg.norm(state.rate)), params.moves == "fed"
-    heat = heat_of(state.heat, recording)
-    warmed = temperature_until(heat, testbed, state.t if not recording.rows else recording.span[1])
-    fresh = rows_of(replace(recording, temperature=warmed), testbed, fed, state.t, speed)
+    inputs = inputs_of(state.inputs, recording)
+    until = state.t if not recording.rows else recording.span[1]
+    warmed = temperature_until(inputs, testbed, until)
+    whole = replace(with_inputs(recording, inputs), temperature=warmed)
+    fresh = rows_of(whole, testbed, fed, state.t, speed)
     model = model_of(recording, testbed, params, state)
     memory, here, written = follow(model, state.memory, Place(posterior, state.covariance), fresh)
     q, w, com, J, b, v, k = np.split(here.posterior, WHERE[:-1])
     now = float(fresh.t[-1])
     end = State(now, q, w, com, unpack_symmetric(J), b, here.covariance, memory, v, k,
-                heat_kept(heat, now))  # fmt: skip
+                inputs_kept(inputs, now))  # fmt: skip
     return track_of(written, end)
 
 

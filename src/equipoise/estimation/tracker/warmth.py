@@ -1,19 +1,16 @@
 """What the tracker knows of warmth: how far a kelvin moves the centre of mass, and how warm it is.
 
-r <- r + k dT: k (m/K) is a state. What says how warm it is, is kept from one call to the next: the
-last temperature, or all switches of a lamp.
+r <- r + k dT: k (m/K) is a state. How warm it is, ``known_inputs`` says.
 
 Cannot tell k from a walk of r that happens to follow the temperature.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.dynamics.timeline import straight_lines
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.estimate import Estimate
-from equipoise.model.recording import Recording, Samples, join
 from equipoise.model.torque_terms import GROUPS, typical_sizes
 
 THERMAL = GROUPS["thermal"]
@@ -41,27 +38,3 @@ def warmth_of(estimate: Estimate | None, names: tuple[str, ...]) -> Warmth:
     known = np.zeros((3, 12))
     known[:, : len(names)], known[:, 9:] = covariance[-3:, : len(names)], covariance[-3:, -3:]
     return Warmth(estimate.values(THERMAL), known)
-
-
-def heat_of(before: Recording | None, recording: Recording) -> Recording:
-    """Return what says how warm it is and was: temperature and lamp, those before included."""
-    fresh = Recording(temperature=recording.temperature, lamp=recording.lamp)
-    return fresh if before is None else join(before, fresh)
-
-
-def heat_kept(heat: Recording, since: float) -> Recording:
-    """Return of the same what later rows need: temperature from ``since`` (s) on, all switches.
-
-    The temperature at that moment is the one that was taken for it: what comes later does not
-    change how warm it was.
-    """
-    temperature, lamp = heat.temperature, heat.lamp
-    if temperature is not None and len(temperature):
-        first = straight_lines(temperature, np.array([since]), 1)
-        later = temperature.where(temperature.t > since)
-        t, values = np.append(since, later.t), np.vstack([first, later.values])
-        temperature = Samples(t, values)
-    if lamp is not None and len(lamp):
-        changes = np.diff(lamp.values[:, 0], prepend=np.nan) != 0
-        lamp = lamp.where(changes | (lamp.t == lamp.t[-1]))
-    return replace(heat, temperature=temperature, lamp=lamp)

@@ -5,6 +5,7 @@ on what was received. It does not wait and has no clock. The commander can be lo
 then ``halt`` is called for it.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
@@ -19,7 +20,7 @@ from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.model.arrays import Floats
-from equipoise.model.bench_requests import checked_inputs, checked_targets
+from equipoise.model.bench_requests import check_speed, checked_inputs, checked_targets
 from equipoise.model.errors import BenchStopped, DriveRefused
 from equipoise.model.hardware import Hardware
 from equipoise.model.reasons.interlocks import Interlock
@@ -126,12 +127,13 @@ class Keeper:
         if self.trip is None:  # to note it may have filled the disk
             self.links.home(self.t)
 
-    def go(self, targets: Mapping[str, float]) -> None:
-        """Send masses to displacements (m): all or none.
+    def go(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
+        """Send masses to displacements (m), no faster than ``speed`` (m/s): all or none.
 
         Raises InputError or MoveRefused for a target that cannot be, BenchStopped while masses
         may not move.
         """
+        check_speed(speed)
         here = np.array([self.links.positions.get(name, 0.0) for name in self.testbed.mass_names])
         goals = checked_targets(self.testbed.masses, here, targets)
         self._able()
@@ -139,7 +141,7 @@ class Keeper:
         reported = ", ".join(f"{name} to {goal / MM:.3f} mm" for name, goal in by_name.items())
         self.note("command", f"go: {reported}", by_name)
         self._able()  # to note it may have filled the disk
-        self.links.go(by_name, self.t)
+        self.links.go(by_name, self.t, speed)
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Give devices their inputs: all or none; what is not named goes on as it was.

@@ -10,6 +10,7 @@ commander alone. The keeper never waits for the commander: what it has to say wa
     keeper to commander    ("news", News)      ("answer", (n, what came of it, or an error))
 """
 
+import math
 import queue
 import threading
 import traceback
@@ -187,9 +188,9 @@ class DistantKeeper:
         self._request("begin")
         self._parts = []
 
-    def go(self, targets: Mapping[str, float]) -> None:
-        """Send masses to displacements (m): all or none."""
-        self._request("go", dict(targets))
+    def go(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
+        """Send masses to displacements (m), no faster than ``speed`` (m/s): all or none."""
+        self._request("go", dict(targets), speed)
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Give devices their inputs: all or none."""

@@ -6,6 +6,7 @@ interlock stops the motors, the read or the move under way raises BenchStopped; 
 work, and masses stay until ``home``.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Protocol
@@ -93,13 +94,13 @@ class RealBench:
             found = join(found, self._keeper.taken())
         return replace(found, momentum=stored_momentum(found, self.testbed))
 
-    def move(self, targets: Mapping[str, float]) -> None:
-        """Set masses on their way to displacements from home (m)."""
+    def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
+        """Set masses on their way to displacements (m), no faster than ``speed`` (m/s)."""
         keeper = self._keeper
         self._turn()
         if keeper.state.trip is None and not keeper.state.fresh:
             self._until(lambda: keeper.state.fresh, PATIENCE, Interlock.NOT_MOVABLE)
-        keeper.go(targets)
+        keeper.go(targets, speed)
         self._turn()
 
     def drive(self, inputs: Mapping[str, float]) -> None:

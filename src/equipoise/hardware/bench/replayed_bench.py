@@ -9,7 +9,12 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from equipoise.model.bench_requests import check_duration, checked_inputs, checked_targets
+from equipoise.model.bench_requests import (
+    check_duration,
+    check_speed,
+    checked_inputs,
+    checked_targets,
+)
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording, rows_between
 from equipoise.model.testbed import Testbed
@@ -51,8 +56,9 @@ class ReplayedBench:
         self._observed = self._time
         return rows_between(self._recording, since, self._time)
 
-    def move(self, targets: Mapping[str, float]) -> None:
+    def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
         """Check displacements (m) against the travel; masses do as was recorded."""
+        check_speed(speed)
         here = np.array([self._displacement(name) for name in self.testbed.mass_names])
         checked_targets(self.testbed.masses, here, targets)
 

@@ -134,12 +134,12 @@ class Links:
             for channel, seconds in link.silent.items()
         }
 
-    def go(self, targets: Mapping[str, float], t: float) -> None:
-        """Send masses to displacements (m), each by its board."""
+    def go(self, targets: Mapping[str, float], t: float, speed: float) -> None:
+        """Send masses to displacements (m), each by its board, no faster than ``speed`` (m/s)."""
         for link in self.boards:
             own = {a.mass: targets[a.mass] for a in link.board.axes if a.mass in targets}
             if own:
-                link.driver.go(own, t)
+                link.driver.go(own, t, speed)
 
     def drive(self, inputs: Mapping[str, float], t: float) -> None:
         """Give devices their inputs, each by its actuator."""

@@ -5,6 +5,7 @@ bench's clock. So each can be tested by the bytes of its manual, and fuzzed. Not
 raises: what cannot be understood is counted.
 """
 
+import math
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -58,6 +59,7 @@ class BoardDriver(Tally):
     def __init__(self, board: MotorBoard) -> None:
         super().__init__()
         self._board, self.state = board, BoardState(Phase.CONNECTING)
+        self._most_speed = math.inf  # m/s, of the way that was asked for last
 
     @abstractmethod
     def opened(self, t: float) -> None:
@@ -82,8 +84,10 @@ class BoardDriver(Tally):
         Without switches: masses stand at home now, a person says so.
         """
 
-    def go(self, goals: Mapping[str, float], t: float) -> None:
+    def go(self, goals: Mapping[str, float], t: float, speed: float = math.inf) -> None:
         """Send masses on their way to displacements (m), checked before; others go on.
+
+        All of them go no faster than ``speed`` (m/s) from now on.
 
         Raises BenchStopped while they may not move.
         """
@@ -91,6 +95,7 @@ class BoardDriver(Tally):
             unsure = "" if self.state.sure else ", its position is not known"
             why = self.state.sentence or f"it is {self.state.phase}{unsure}"
             raise BenchStopped(f"board {self._board.name}: {why}")
+        self._most_speed = speed
         self._aim({**self.state.goal, **goals}, t)
 
     @property

@@ -17,6 +17,7 @@ from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.arrays import Square
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import BODY, standing_com
+from equipoise.model.given_numbers import GivenNumbers
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.stated_body import StatedBody, tensor_of
 from equipoise.model.testbed import Testbed
@@ -88,6 +89,19 @@ def read_body(path: str | Path, testbed: Testbed | None = None) -> tuple[StatedB
         raise InputError(where, "a physically inconsistent inertia", "an estimate that is usable")
     remarks = (f"Source: {file.name}. {found.outcome.sentence}",)
     return StatedBody(file.absolute().parent.name, body, covariance, remarks), found.outcome.usable
+
+
+def read_given(path: str | Path) -> GivenNumbers:
+    """Return all parameters that a run found; InputError where its outcome is not usable."""
+    file = _document_of(Path(path))
+    document, where = read_document(_DOCUMENT.validate_json, file, WANTED, WANTED), str(file)
+    found = _estimate_in(document, where)
+    if not found.outcome.usable:
+        raise InputError(where, found.outcome.sentence, "an estimate that is usable")
+    valued = [each for each in found.parameters if each.value is not None]
+    names = tuple(each.name for each in valued)
+    values = np.array([each.value for each in valued], dtype=np.float64)
+    return GivenNumbers(names, values, _covariance(found, names))
 
 
 def _document_of(path: Path) -> Path:

@@ -21,7 +21,7 @@ from typing import Any
 
 from equipoise.io.files.append_file import DurableFile
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.mcap.log_messages import Topics
+from equipoise.io.mcap.log_messages import STREAMS, Topics
 from equipoise.io.mcap.mcap_writer import McapWriter
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording
@@ -75,9 +75,12 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
         self._guarded(lambda: self._topics.rows(recording))
 
     def event(self, t: float, kind: str, sentence: str, data: Mapping[str, Any]) -> None:
-        """Append what happened at a time (s) and flush at once: a command, an interlock, a note."""
+        """Append what happened at a time (s); flush at once, but for what comes in a stream."""
         self._guarded(lambda: self._topics.event(t, kind, sentence, data))
-        self._flush(t)
+        if kind in STREAMS:
+            self.turn(t)
+        else:
+            self._flush(t)
 
     def turn(self, t: float) -> None:
         """Flush if it is time (s) to; asked many times a second."""

@@ -8,6 +8,8 @@ Topics, all times in ns on the clock of the log (UTC of a real bench):
     /events     JSON {"kind", "sentence", "data"}: the same events, for programs
     /rate /masses /momentum /torque /devices /field /temperature /lamp /accelerometer /sun
                 JSON, one number for each name, the unit at its end: {"x_rad_s": 0.01, ...}
+    /gravity_torque
+                JSON: what a controller is told to feed forward (``io.stream.gravity_message``)
 
 Every message in JSON begins with its time, {"timestamp": {"sec", "nsec"}}, as those of Foxglove do.
 JSON prints a double with the digits that give the same double again, so values come back exactly.
@@ -25,6 +27,7 @@ from equipoise.io.columns.native_columns import ACCELEROMETER, LAMP, SUN, TEMPER
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.foxglove_scene import BODY, LABORATORY, Scene
+from equipoise.io.stream import gravity_message
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -36,6 +39,7 @@ Send = Callable[[bytes, int], None]  # takes a message and its time, ns
 # Opens a topic: its name, encoding, schema (with name, encoding and data), metadata.
 Opener = Callable[[str, str, Any, Mapping[str, str]], Send]
 START = "start"  # kind of the event with which the platform is free
+STREAMS = {gravity_message.KIND: gravity_message.PARTS}  # kinds that come many times a second
 LEVELS = {"interlock": "Error", "fault": "Warning"}  # how loud a kind of event is; else Info
 XYZ_UNITS = {"rate": "rad_s", "momentum": "N_m_s", "torque": "N_m", "field": "T"}
 AS_IN_TABLES = {
@@ -97,8 +101,15 @@ class Topics:
             self._shown(self._scene.moved(recording))
 
     def event(self, t: float, kind: str, sentence: str, data: Mapping[str, Any]) -> None:
-        """Send what happened at a time (s), for people and for programs."""
+        """Send what happened at a time (s), for people and for programs.
+
+        What comes many times a second has a topic of its own, for programs alone.
+        """
         ns, messages = self._at(t), self._messages
+        if kind in STREAMS:
+            parts = _schema(f"equipoise.{kind}", STREAMS[kind])
+            self._json_topic(topic_of(kind), parts, {})(_json(ns, data), ns)
+            return
         log = messages.Log(
             timestamp=self._stamp(ns),
             level=getattr(messages.LogLevel, LEVELS.get(kind, "Info")),

@@ -70,6 +70,12 @@ class StepReason(Code):
     MASSES_GO_ON = "masses_go_on", "The sliding masses can correct the rest."
     WEIGHTS_LIE = "weights_lie", "{weights:.0f} weights lie on {places:.0f} places."
 
+    # When masses may move during an experiment
+    EXPERIMENT_HOLDS = "experiment_holds", "The experiment requests that masses stand still."
+    QUIET_TIME = "quiet_time", "A quiet time begins: masses stand still."
+    MASSES_FREE = "masses_free", "Masses may move again."
+    EXPERIMENT_DONE = "experiment_done", "The experiment has ended."
+
     # Why a procedure ends
     WITHIN_TOLERANCE = "goal_reached", "Within tolerance."
     ESTIMATE_UNUSABLE = "estimate_cannot_be_used", "The estimate is not usable."

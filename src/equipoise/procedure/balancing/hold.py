@@ -10,24 +10,30 @@ next one: held is what is within tolerance for sure each time (``model.criterion
 ends where the masses are at the end of their rails.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from equipoise.actuators.sliding_masses import shift_by
+from equipoise.dynamics.sag_trim import sag_coefficients
+from equipoise.estimation.methods.tracker import estimate_at_end
 from equipoise.estimation.tracker import tracker
+from equipoise.estimation.tracker.known_inputs import inputs_kept, inputs_of
 from equipoise.estimation.tracker.predict_correct import DRIFTING
-from equipoise.estimation.tracker.warmth import heat_of, warmth_of
-from equipoise.model.arrays import Floats, Vector3
+from equipoise.estimation.tracker.warmth import warmth_of
+from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
+from equipoise.model.bench_requests import in_steps
 from equipoise.model.estimate import INERTIA
+from equipoise.model.permission import Permission
 from equipoise.model.reasons.reason import axes_of, one_reason
-from equipoise.model.reasons.step_reasons import MoveReason
+from equipoise.model.reasons.step_reasons import MoveReason, StepReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import TERMS
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
@@ -37,11 +43,26 @@ from equipoise.procedure.balancing.hold_posterior import (
     ahead,
     before_moving,
     moved_on,
+    shifted,
     standing,
 )
-from equipoise.procedure.balancing.hold_verdict import Measured, verdict_on
+from equipoise.procedure.balancing.hold_verdict import (
+    Measured,
+    course_from,
+    followed,
+    verdict_on,
+)
+from equipoise.procedure.balancing.motion_budget import (
+    NO_LIMIT,
+    MotionBudget,
+    reached,
+    slowed,
+    speed_for,
+)
+from equipoise.procedure.balancing.sag_shift import lever
+from equipoise.procedure.balancing.schedule import ALWAYS, Schedule
 from equipoise.procedure.steps.joint_fit import DRIFT, Knowledge
-from equipoise.procedure.steps.planned_move import planned_move
+from equipoise.procedure.steps.planned_move import by_name, planned_move
 from equipoise.procedure.steps.sampler import last_row
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import state_now
@@ -57,10 +78,15 @@ DRIFT_WALK = 5e-10  # m/s/sqrt(s), chosen: by 1.3 um/min within half an hour
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HoldOptions(Aim):
-    """The aim, and for how long."""
+    """The aim, for how long, and what masses may do meanwhile."""
 
     tolerance: Vector3 = field(default_factory=lambda: np.full(3, 3 * UM))  # m
     duration: float = field(kw_only=True)  # s
+    every: float = field(default=MEASUREMENT, kw_only=True)  # s between decisions
+    motion: MotionBudget = field(default=NO_LIMIT, kw_only=True)
+    schedule: Schedule = field(default=ALWAYS, kw_only=True)
+    sag: Matrix3 | None = field(default=None, kw_only=True)  # m, C; None: masses follow no tilt
+    report: float = field(default=np.inf, kw_only=True)  # s between Steps with an estimate
 
     @property
     def balancing(self) -> BalanceOptions:
@@ -75,8 +101,26 @@ class HoldOptions(Aim):
         )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Held:
+    """Where a hold stands: from here it goes on, also after an interruption."""
+
+    state: tracker.State
+    params: tracker.Params
+    displacement: Floats  # m, as reported last
+    aimed: Floats  # m, where masses were sent last
+    granted: Permission = Permission.FREE
+
+
+def unheeded(_held: Held) -> None:
+    """Let nobody know."""
+
+
 def balance_and_hold(
-    bench: Bench, balancing: BalanceOptions, holding: HoldOptions
+    bench: Bench,
+    balancing: BalanceOptions,
+    holding: HoldOptions,
+    on_held: Callable[[Held], None] = unheeded,
 ) -> Iterator[Step]:
     """Yield the Steps of balancing and then of holding.
 
@@ -87,7 +131,8 @@ def balance_and_hold(
     knowledge = yield from balance(bench, balancing)
     tilted_out = tilted(knowledge.recording, bench.testbed, began)
     if knowledge.estimate.outcome.usable and not tilted_out:
-        yield from hold(bench, knowledge, holding)
+        start = begun(knowledge, bench.testbed, holding.sag)
+        yield from hold(bench, start, holding, on_held)
 
 
 def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
@@ -106,46 +151,133 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
         covariance[every] = estimate.covariance_of((*known, *DRIFT))
     for k in DRIFTING[-3:]:
         covariance[k, k] += WARMING**2
-    heat = heat_of(None, knowledge.recording)
-    return replace(state, rate=rate, drift=drift, covariance=covariance, heat=heat)
+    inputs = inputs_kept(inputs_of(None, knowledge.recording), t)
+    return replace(state, rate=rate, drift=drift, covariance=covariance, inputs=inputs)
 
 
-def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
-    """Yield a move whenever one is made, and a verdict at the end."""
-    testbed, began = bench.testbed, bench.time
-    end = began + options.duration
-    params = params_for(knowledge)
-    state, displacement = first_posterior(knowledge, testbed), knowledge.displacement
-    course, wait = [standing(state, testbed, displacement)], SOON
-    while bench.time < end - 1e-9:
-        fresh, wait = bench.read(min(wait, end - bench.time)), MEASUREMENT
-        state = tracker.track(fresh, testbed, params, state).end
-        displacement = last_row(fresh.masses, displacement)
-        now = standing(state, testbed, displacement)
-        later = ahead(now, state, min(MEASUREMENT, end - bench.time))
-        course += [now, later]
-        com = significant_com(later, options)
-        why = reason_to_stop(fresh, com, displacement, testbed, options)
+def begun(knowledge: Knowledge, testbed: Testbed, sag: Matrix3 | None = None) -> Held:
+    """Return where a hold begins: at the estimate of balancing."""
+    state, params = first_posterior(knowledge, testbed), params_for(knowledge)
+    if sag is not None:
+        state = replace(state, com=lever(state.com, sag, testbed))
+        params = replace(params, torque=with_sag(params.torque, sag))
+    return Held(state, params, knowledge.displacement, knowledge.displacement)
+
+
+def hold(
+    bench: Bench, start: Held, options: HoldOptions, on_held: Callable[[Held], None] = unheeded
+) -> Iterator[Step]:
+    """Yield a Step whenever masses set off or their permission changes, and a verdict at the end.
+
+    ``on_held`` gets where the hold stands after every measurement.
+    """
+    testbed, held, began = slowed(bench.testbed, options.motion), start, bench.time
+    end, due = began + options.duration, began + options.report
+    course, wait = course_from(posterior_of(held, testbed, options), options), SOON
+    while bench.time < end - 1e-9 and held.granted is not Permission.DONE:
+        fresh, wait = bench.read(min(wait, end - bench.time)), options.every
+        held, track = measured(held, fresh, testbed)
+        on_held(held)
+        now, later = outlook(held, testbed, options, lapse := min(options.every, end - bench.time))
+        why = reason_to_stop(fresh, *arrival(held, testbed, options, lapse), testbed, options)
         if why is not None:
             bench.stop()
             yield stop_step(bench, now, why, bench.time - began)
             return
-        goal = next_goal(state, com, displacement, testbed, options)
-        if goal is not None:
-            posterior = before_moving(state, testbed, displacement, goal)
-            move = planned_move(testbed, displacement, goal, posterior, MoveReason.DRIFT)
-            bench.move(move.targets)
-            course[-1] = moved_on(move, now, later)
-            why = one_reason(move.reason, **axes_of("was", now.com), travel=move.travel)
-            yield Step("move", bench.time, why, fresh, move=move)
-    judged = verdict_on(course, options, options.duration)
+        if bench.time >= due - 1e-9:
+            due, shift = due + options.report, shift_by(testbed, held.displacement)
+            found = one_reason(StepReason.COM_AT, **at(now.com, now.sd))
+            estimate = estimate_at_end(track, testbed, shift)
+            yield Step("estimate", bench.time, found, estimate=estimate)
+        held, steps, moved = acted(bench, held, options, lapse)
+        for claim in (now, moved or later):
+            course = followed(course, claim, options)
+        yield from (replace(step, recording=fresh) for step in steps)
+    judged = verdict_on(course, options, bench.time - began)
     yield Step("verify", bench.time, judged.reasons, verdict=judged)
+
+
+def measured(held: Held, fresh: Recording, testbed: Testbed) -> tuple[Held, tracker.Track]:
+    """Return where a hold stands after rows that are new."""
+    track = tracker.track(fresh, testbed, held.params, held.state)
+    displacement = last_row(fresh.masses, held.displacement)
+    return replace(held, state=track.end, displacement=displacement), track
+
+
+def posterior_of(held: Held, testbed: Testbed, options: HoldOptions) -> Measured:
+    """Return the posterior of the centre of mass with the masses where they are."""
+    return standing(held.state, testbed, held.displacement, options.sag)
+
+
+def outlook(
+    held: Held, testbed: Testbed, options: HoldOptions, lapse: float
+) -> tuple[Measured, Measured]:
+    """Return the posterior now, and a while (s) later, with masses on the way they are on."""
+    now = posterior_of(held, testbed, options)
+    there = reached(testbed, held.displacement, held.aimed, lapse)
+    return now, shifted(ahead(now, held.state, lapse), testbed, there - held.displacement)
+
+
+def arrival(
+    held: Held, testbed: Testbed, options: HoldOptions, lapse: float
+) -> tuple[Vector3, Floats]:
+    """Return the significant centre of mass (m) once masses are where they were sent, and that."""
+    later = ahead(posterior_of(held, testbed, options), held.state, lapse)
+    there = shifted(later, testbed, held.aimed - held.displacement)
+    return significant_com(there, options), held.aimed
+
+
+def acted(
+    bench: Bench, held: Held, options: HoldOptions, lapse: float
+) -> tuple[Held, list[Step], Measured | None]:
+    """Let masses do what they may: return the hold then, Steps, and the posterior to come.
+
+    The posterior comes of a move alone.
+    """
+    testbed = slowed(bench.testbed, options.motion)
+    permission, reasons = options.schedule.at(bench.time)
+    changed = permission is not held.granted
+    steps = [Step("control", bench.time, reasons)] if changed else []
+    held = replace(held, granted=permission)
+    if permission is not Permission.FREE:
+        return halted(bench, held, options.motion), steps, None
+    goal = next_goal(held.state, *arrival(held, testbed, options, lapse), testbed, options)
+    if goal is None:
+        return held, steps, None
+    now = posterior_of(held, testbed, options)
+    parting = before_moving(now, testbed, held.displacement, goal)
+    move = planned_move(testbed, held.displacement, goal, parting, MoveReason.DRIFT)
+    bench.move(move.targets, speed_for(bench.testbed, goal - held.displacement, options.motion))
+    held = replace(held, aimed=goal)
+    there = reached(testbed, held.displacement, goal, lapse)
+    later = moved_on(move, now, ahead(now, held.state, lapse))
+    why = one_reason(move.reason, **axes_of("was", now.com), travel=move.travel)
+    steps.append(Step("move", bench.time, why, move=move))
+    return held, steps, shifted(later, testbed, there - goal)
+
+
+def halted(bench: Bench, held: Held, budget: MotionBudget) -> Held:
+    """Let masses stand at the step of their motors that they are next to."""
+    masses, here = bench.testbed.masses, held.displacement
+    steps = np.array([in_steps(mass, float(d)) for mass, d in zip(masses, here, strict=True)])
+    if np.array_equal(held.aimed, steps):
+        return held
+    bench.move(by_name(bench.testbed, steps), speed_for(bench.testbed, steps - here, budget))
+    return replace(held, aimed=steps)
 
 
 def params_for(knowledge: Knowledge) -> tracker.Params:
     """Return the tracker's options: its state has the drift."""
     torque = knowledge.fitted.point.torque
     return tracker.Params(torque=torque, com_walk=COM_WALK, drift_walk=DRIFT_WALK)
+
+
+def with_sag(torque: Floats | None, sag: Matrix3) -> Floats:
+    """Return torque coefficients whose sag is C (m)."""
+    found = np.zeros(len(TERMS)) if torque is None else torque.copy()
+    for name, value in sag_coefficients(sag).items():
+        found[TERMS.index(name)] = value
+    return found
 
 
 def reason_to_stop(

@@ -9,26 +9,38 @@ from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.move import Move
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balancing.hold_verdict import Measured
+from equipoise.procedure.balancing.sag_shift import allowance
 from equipoise.procedure.steps.planned_move import stops_covariance
 
 COM_WALK = 5e-8  # m/sqrt(s), chosen: beside the drift, as of a tracker that knows of none
 
 
-def standing(state: tracker.State, testbed: Testbed, displacement: Floats) -> Measured:
-    """Return the posterior of the centre of mass with the masses as they stand."""
-    return Measured(state.com + shift_by(testbed, displacement), state.covariance[COM, COM])
+def standing(
+    state: tracker.State, testbed: Testbed, displacement: Floats, sag: Matrix3 | None = None
+) -> Measured:
+    """Return the posterior of the centre of mass with the masses as they stand.
+
+    Of a platform that sags, and whose masses follow its tilt, that of a stiff one which acts alike.
+    """
+    com = state.com + shift_by(testbed, displacement)
+    acting = com if sag is None else com - allowance(sag, state.q, testbed)
+    return Measured(acting, state.covariance[COM, COM])
 
 
 def before_moving(
-    state: tracker.State, testbed: Testbed, displacement: Floats, goal: Floats
+    now: Measured, testbed: Testbed, displacement: Floats, goal: Floats
 ) -> tuple[Vector3, Matrix3]:
     """Return the centre of mass (m, m^2) less the stops' errors of masses about to move to a goal.
 
     The tracker does not estimate single stops, so only their accuracy is known.
     """
-    now = standing(state, testbed, displacement)
     leaving = (goal != displacement) & (displacement != 0)  # at home a mass has no error
     return now.com, now.covariance + stops_covariance(testbed, leaving)
+
+
+def shifted(measured: Measured, testbed: Testbed, way: Floats) -> Measured:
+    """Return the posterior after masses have gone a way (m), less the errors of their stops."""
+    return Measured(measured.com + shift_by(testbed, way), measured.covariance)
 
 
 def ahead(now: Measured, state: tracker.State, lapse: float) -> Measured:

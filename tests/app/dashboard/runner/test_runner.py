@@ -10,7 +10,7 @@ from equipoise.app.dashboard.protocol.data_folder import recordings
 from equipoise.app.dashboard.protocol.series import series_of
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.chart_rows import parts_of
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.app.live.pace import Pace
 from equipoise.estimation.tracker import tracker
 from equipoise.io.recording.recording_file import read_recording, write_recording
@@ -118,6 +118,21 @@ def test_a_balance_passes_and_its_report_is_kept(room, monkeypatch):
     room.until(lambda: room.reported.state["kept"], 900)
     kept = room.folder / room.reported.state["kept"]
     assert {"report.html", "report.pdf", "run.json"} <= {path.name for path in kept.iterdir()}
+
+
+def test_a_balance_is_kept_while_masses_stand_as_the_page_says(room):
+    """Half a minute more; the word of the page comes as the first verdict does, and is a step."""
+    room.reported.when = lambda kind, what: (
+        kind == "step" and what["of"] == "verify" and room.request(requests.Stand(True))
+    )
+    room.request(replace(BALANCE, tolerance=(3e-6, 3e-6, 3e-6), keep=30.0))
+    room.turn(2)
+    of = [step["of"] for step in room.reported.steps]
+    assert of[-1] == "verify"
+    assert "held for 0.5 min" in room.reported.steps[-1]["sentence"]
+    (stand,) = [step for step in room.reported.steps if step["of"] == "control"]
+    assert "requests that masses stand still" in stand["sentence"]
+    assert of.index("control") > of.index("verify")
 
 
 def test_a_stop_halts_the_masses_and_ends_the_balance(room):

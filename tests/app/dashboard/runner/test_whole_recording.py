@@ -5,8 +5,8 @@ import pytest
 
 from equipoise.app.arguments.recorded_run import RecordedRun
 from equipoise.app.dashboard.runner import whole_recording as module
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.whole_recording import whole_recording
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.model.errors import InputError
 from equipoise.model.recorded_step import RecordedStep
 from equipoise.model.recording import joined, rows_between

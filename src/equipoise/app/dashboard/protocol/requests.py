@@ -47,6 +47,9 @@ Moment = Annotated[float, Field(
 Lasting = Annotated[float, Field(
     gt=0, le=LASTING, allow_inf_nan=False, description="a duration above 0 s")]  # fmt: skip
 
+Wait = Annotated[float, Field(
+    ge=0, le=LASTING, allow_inf_nan=False, description="a duration of at least 0 s")]  # fmt: skip
+
 
 @dataclass(frozen=True, slots=True)
 class Balance:
@@ -57,6 +60,14 @@ class Balance:
     law: Text
     max_time: Lasting | None = None  # s; None: the law's own
     held: Flag = False
+    keep: Wait = 0.0  # s, to keep the balance afterwards
+
+
+@dataclass(frozen=True, slots=True)
+class Stand:
+    """Let masses stand still while a balance is kept, or move again."""
+
+    on: Flag
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +139,9 @@ class Seek:
     t: Moment  # s
 
 
-Request = Balance | Identify | Stop | Jog | Mark | Record | Pause | Speed | Anew | Replay | Seek
+Request = (
+    Balance | Stand | Identify | Stop | Jog | Mark | Record | Pause | Speed | Anew | Replay | Seek
+)
 KINDS: tuple[type[Any], ...] = get_args(Request)
 EXACT = ConfigDict(strict=True, revalidate_instances="always", hide_input_in_errors=True)
 

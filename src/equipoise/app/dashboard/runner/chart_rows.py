@@ -5,7 +5,7 @@ import numpy as np
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.app.dashboard.protocol.frames import Part
 from equipoise.app.dashboard.protocol.series import drawn_devices
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate
+from equipoise.app.live.live_estimate import LiveEstimate
 from equipoise.assessment.metrics.gravity_torque import gravity_torque
 from equipoise.assessment.metrics.motion_energy import motion_energy
 from equipoise.estimation.tracker.tracker import Track

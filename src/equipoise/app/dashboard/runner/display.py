@@ -10,9 +10,9 @@ from typing import Any, Protocol
 
 from equipoise.app.dashboard.runner.chart_rows import parts_of
 from equipoise.app.dashboard.runner.documents import estimated
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.recorder import Recorder
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.estimation.tracker.tracker import Track
 from equipoise.hardware.bench.onlookers import Onlookers, why_lost
 from equipoise.model.errors import EquipoiseError

@@ -8,7 +8,7 @@ import numpy as np
 from equipoise.app.dashboard.protocol.series import series_of
 from equipoise.app.dashboard.runner.benches import Station
 from equipoise.app.dashboard.runner.chart_rows import COM, standing_com
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate
+from equipoise.app.live.live_estimate import LiveEstimate
 from equipoise.app.runs.balancing import Goal
 from equipoise.model.devices import recorded_name
 

@@ -15,8 +15,12 @@ from equipoise.app.dashboard.runner.background_jobs import COMMAND
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.runner import Runner
 from equipoise.app.runs.balancing import Goal, Limits
+from equipoise.app.runs.keeping import EVERY
 from equipoise.model.errors import EquipoiseError, InputError
+from equipoise.model.permission import Permission
 from equipoise.model.units import MM
+from equipoise.procedure.balancing.motion_budget import USUAL
+from equipoise.procedure.balancing.schedule import Schedule
 
 LEAVE = None  # a request of the server alone: a page has no word for it
 
@@ -54,7 +58,10 @@ class Desk:
 
     def _deal(self, request: requests.Request) -> None:
         """Carry out at once what needs no free bench; let the rest wait, or refuse it."""
-        at_once = requests.Stop | requests.Mark | requests.Record | requests.Speed | requests.Pause
+        at_once = (
+            requests.Stop | requests.Stand | requests.Mark | requests.Record | requests.Speed
+            | requests.Pause
+        )  # fmt: skip
         if isinstance(request, at_once):
             self._guarded(request, self._at_once)
         elif self._busy:
@@ -76,6 +83,8 @@ class Desk:
         runner = self._runner
         if isinstance(request, requests.Stop):
             self._stop()
+        elif isinstance(request, requests.Stand):
+            runner.permission = Permission.HOLD if request.on else Permission.FREE
         elif isinstance(request, requests.Mark):
             runner.mark(request.text)
         elif isinstance(request, requests.Record):
@@ -137,7 +146,10 @@ class Desk:
                 "the platform", "not confirmed to be held", "a person who holds it level"
             )
         goal = Goal(np.array(request.target), np.array(request.tolerance))
-        limits = Limits(None, request.max_time, 0.0, request.law)
+        limits = Limits(
+            None, request.max_time, request.keep, request.law, motion=USUAL, every=EVERY,
+            schedule=Schedule(lambda: self._runner.permission),
+        )  # fmt: skip
         self._runner.balance(goal, limits)
 
     def _jog(self, request: requests.Jog) -> None:

@@ -27,6 +27,7 @@ from equipoise.maths.attitude import tilt
 from equipoise.maths.kernels.compile_events import compiler_notices
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.permission import Permission
 from equipoise.model.recording import Recording, joined
 from equipoise.model.step import Step
 from equipoise.model.verdict import VerdictOutcome
@@ -45,6 +46,7 @@ class Runner:
         self.trip: str | None = None
         self.kept: str | None = None  # folder of the last run that was kept
         self.stopping = False
+        self.permission = Permission.FREE  # of the masses while a balance is kept
         self._receive: Callable[[float], None] = lambda _: None
         self._clock, self._steps, self._due = 0, 0, 0.0
         self._jobs: list[Job] = []

@@ -16,10 +16,10 @@ from uuid import uuid4
 from equipoise.app.console.crash_file import crash_of
 from equipoise.app.dashboard.runner.background_jobs import COMMAND
 from equipoise.app.dashboard.runner.benches import Station, real, replayed, simulated
-from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.request_handler import Desk
 from equipoise.app.dashboard.runner.runner import Runner
+from equipoise.app.live.live_estimate import LiveEstimate, grown
 from equipoise.hardware.bench.stop_signals import leave_to_commander
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording

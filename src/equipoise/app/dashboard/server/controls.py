@@ -19,7 +19,7 @@ from equipoise.app.dashboard.server.fields import (
 from equipoise.app.dashboard.server.request_queue import AUTO, Counter
 from equipoise.app.text.numbers import TRAVEL
 from equipoise.model.testbed import SlidingMass
-from equipoise.model.units import UM, in_si
+from equipoise.model.units import MINUTE, UM, in_si
 
 TARGET_UM, TOLERANCE_UM = (0.0, 0.0, -100.0), (2.0, 2.0, 3.0)  # as ``equipoise balance`` has them
 SPEEDS = {0.5: "half", 1.0: "real time", 2.0: "2 x", 5.0: "5 x", 20.0: "20 x", 0.0: "fastest"}
@@ -92,6 +92,10 @@ class Controls:
         self.law.element.props("dense outlined options-dense label=Law")
         self.target = triple("Target", TARGET_UM)
         self.tolerance = triple("Tolerance", TOLERANCE_UM)
+        self.keep = number_field("Then keep the balance for (min)", 0.0, "%.0f")
+        self.keep.element.props('dense outlined aria-label="Minutes to keep the balance"')
+        self.stand = switch("q-checkbox", "Masses stand still meanwhile", self._stand)
+        self.stand.element.props("dense")
         self.held = switch("q-checkbox", "A person holds the platform level")
         self.held.element.props("dense")
         self.held.element.set_visibility(self._counter.watch.about.get("bench") == "real")
@@ -168,9 +172,13 @@ class Controls:
         if target is None or tolerance is None:
             ui.notify("Target and tolerance need three numbers each.")
             return
-        wanted = requests.Balance(target, tolerance, self.law.value, None, self.held.value)
+        keep = in_si(self.keep.value or 0.0, MINUTE)
+        wanted = requests.Balance(target, tolerance, self.law.value, None, self.held.value, keep)
         paused = self._counter.watch.state.get("phase") == "paused"
         self._request(*_first_let_go(paused), wanted)
+
+    def _stand(self, on: bool) -> None:
+        self._request(requests.Stand(on))
 
     def _hold(self) -> None:
         held = self._counter.watch.state.get("phase") in ("paused", "held")

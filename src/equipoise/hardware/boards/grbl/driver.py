@@ -14,6 +14,7 @@ while it stands keeps its position. Masses without switches are put at home by a
 word is ``home``. Source: Grbl 1.1 wiki, "Interface", "Jogging", "Configuration".
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -106,6 +107,7 @@ class Grbl(BoardDriver):
         status = self._talk.status
         listens = self.state.phase is Phase.READY and status is not None and status.state in QUIET
         self._talk.queue.drop()
+        self._most_speed = math.inf
         if not listens:
             self._talk.reset()
         self._request_settings()
@@ -299,6 +301,7 @@ class Grbl(BoardDriver):
         if self.state.phase is Phase.READY or not self._route.sent:
             self._route.begin(self.state.position)
             self._since = self._talk.clock.now
+        self._route.slow_down(self._most_speed)
         phase = Phase.HOMING if self.state.phase is Phase.HOMING else Phase.MOVING
         whole = {name: goal.get(name, at) for name, at in self._route.sent.items()}
         self.state = replace(self.state, phase=phase, goal=whole)

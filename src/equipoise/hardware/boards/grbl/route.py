@@ -20,13 +20,17 @@ class Route:
     """One way; ``speed`` is m/s, by mass."""
 
     def __init__(self, speed: Mapping[str, float]) -> None:
-        self._speed = speed
+        self._speed = self._own = speed
         self.sent: Displacements = {}  # where the legs sent so far end
         self.refused = False  # the last leg was, and waits for masses to stand
 
     def begin(self, at: Displacements) -> None:
         """Begin where masses stand."""
         self.sent, self.refused = dict(at), False
+
+    def slow_down(self, most: float) -> None:
+        """Let no mass go faster than so many m/s from the next leg on."""
+        self._speed = {name: min(speed, most) for name, speed in self._own.items()}
 
     def following(
         self, axes: Sequence[Axis], position: Displacements, goal: Displacements

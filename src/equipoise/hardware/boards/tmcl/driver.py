@@ -12,6 +12,7 @@ module's own reference search; those without switches stand at home when a perso
 TMCM-6110 TMCL Firmware Manual V1.31, 4.6 and chapters 5, 6.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -97,6 +98,7 @@ class Tmcl(BoardDriver):
         if self._mute:
             self._talk.give_up()
         counts = self.state.reported
+        self._most_speed = math.inf
         self._begin(t)
         self._talk.say([])
         self.state = BoardState(Phase.HOMING, position=self.state.position, reported=counts)
@@ -146,7 +148,8 @@ class Tmcl(BoardDriver):
         self._sent |= targets
         self._commanded = bool(commands)
         requested = [Request(w.GAP, w.AT, self._steps.motor(k)) for k in going]
-        return [*commands, *requested, *self._switch_ahead(going), OBSERVED]
+        slowed = self._scripts.slowed(self._most_speed) if going else ()
+        return [*slowed, *commands, *requested, *self._switch_ahead(going), OBSERVED]
 
     def _switch_ahead(self, going: Sequence[str]) -> Sequence[Request]:
         """Return the question for the limit switch ahead of one mass, the next in turn."""

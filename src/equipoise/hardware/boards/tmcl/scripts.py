@@ -11,6 +11,7 @@ The mark is a variable of its working memory: after a reset it is 0 again. Sourc
 Firmware Manual V1.31, 4.6.13 "RFS", chapter 6 "Global parameters", bank 2.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 
 from equipoise.hardware.boards.tmcl import words as w
@@ -30,7 +31,7 @@ class Steps:
 
     def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
         self.axes: Mapping[str, Axis] = {axis.mass: axis for axis in board.axes}
-        self._speed = {mass.name: mass.speed for mass in masses}
+        self.speed = {mass.name: mass.speed for mass in masses}  # m/s
 
     def motor(self, name: str) -> int:
         """Return the number of a mass's motor."""
@@ -49,7 +50,7 @@ class Steps:
     def target(self, name: str, at: int, goal: float) -> int:
         """Return the position to send a mass to, on its way from ``at`` to a goal (m)."""
         end = self.steps(name, goal)
-        most = int(2 * LEG * self._speed[name] * self.axes[name].steps_per_m)
+        most = int(2 * LEG * self.speed[name] * self.axes[name].steps_per_m)
         return max(at - most, min(at + most, end))
 
 
@@ -59,6 +60,7 @@ class Scripts:
     def __init__(self, board: MotorBoard, steps: Steps) -> None:
         self._board, self._steps = board, steps
         self.speeds: dict[str, int] = {}
+        self._given: dict[str, int] = {}  # speeds that the module has by now
 
     def each(self, command: int, type_: int = 0) -> Sequence[Request]:
         """Return the same request to each motor."""
@@ -80,9 +82,20 @@ class Scripts:
         }
         return scripts[name]()
 
-    def _marked(self) -> Sequence[Request]:
-        commands = [
+    def slowed(self, most: float) -> Sequence[Request]:
+        """Return what sets the speed of each mass, no faster than so many m/s, where it changes."""
+        own = self._steps.speed
+        wanted = {
+            name: max(1, int(value * min(1.0, most / own[name])))
+            for name, value in self.speeds.items()
+        }
+        changed = {name: v for name, v in wanted.items() if self._given.get(name) != v}
+        self._given |= changed
+        return [
             Request(w.SAP, w.MOST_SPEED, self._steps.motor(name), speed)
-            for name, speed in self.speeds.items()
+            for name, speed in changed.items()
         ]
-        return [*commands, Request(w.SGP, VARIABLE, BANK, MARK)]
+
+    def _marked(self) -> Sequence[Request]:
+        self._given = {}
+        return [*self.slowed(math.inf), Request(w.SGP, VARIABLE, BANK, MARK)]

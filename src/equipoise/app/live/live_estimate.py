@@ -4,7 +4,7 @@ The tracker (``estimation.tracker``) is fed part by part. Each part is preceded 
 earlier rows, so that it contains the stop of a mass that was moving.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from equipoise.estimation.tracker import tracker
 from equipoise.model.arrays import Floats
@@ -21,6 +21,8 @@ class LiveEstimate:
     testbed: Testbed
     state: tracker.State | None = None
     tail: Recording | None = None
+    prior: tracker.Posterior | None = None  # of the body; None: the testbed's
+    params: tracker.Params = field(default_factory=tracker.Params)
 
     @property
     def covariance(self) -> Floats | None:
@@ -31,21 +33,20 @@ class LiveEstimate:
 def grown(posterior: LiveEstimate, rows: Recording) -> tuple[LiveEstimate, tracker.Track | None]:
     """Return the posterior after more rows, and its course along them; None without an attitude."""
     observed = rows if posterior.tail is None else join(posterior.tail, rows)
-    state = posterior.state or _first(observed, posterior.testbed)
-    if state is None:
-        return LiveEstimate(posterior.testbed, None, observed), None
-    if not _later(rows, state.t):
-        return LiveEstimate(posterior.testbed, state, observed), None
-    track = tracker.track(observed, posterior.testbed, tracker.Params(), state)
+    state = posterior.state or _first(observed, posterior)
+    if state is None or not _later(rows, state.t):
+        return replace(posterior, state=state, tail=observed), None
+    track = tracker.track(observed, posterior.testbed, posterior.params, state)
     end = track.end.t
-    return LiveEstimate(posterior.testbed, track.end, window(observed, end - TAIL, end)), track
+    return replace(posterior, state=track.end, tail=window(observed, end - TAIL, end)), track
 
 
-def _first(rows: Recording, testbed: Testbed) -> tracker.State | None:
+def _first(rows: Recording, posterior: LiveEstimate) -> tracker.State | None:
     """Return the state at the first attitude; None if there is none."""
     if rows.attitude is None or not len(rows.attitude):
         return None
-    return tracker.first_state(float(rows.attitude.t[0]), rows.attitude.values[0], testbed)
+    t, q = float(rows.attitude.t[0]), rows.attitude.values[0]
+    return tracker.first_state(t, q, posterior.testbed, posterior.prior)
 
 
 def _later(rows: Recording, t: float) -> bool:

@@ -1,0 +1,73 @@
+"""A keeping for terminal, JSON and report."""
+
+from typing import Any
+
+from equipoise.app.figures.balancing import kept_com
+from equipoise.app.figures.catalogue import Picture
+from equipoise.app.report.build import steps_section
+from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
+from equipoise.app.runs.keeping import Keeping
+from equipoise.app.text.blocks import Blocks, Section, paragraphs
+from equipoise.app.text.json_document import KEEP
+from equipoise.app.text.json_shape import View
+from equipoise.app.text.numbers import fixed
+from equipoise.app.text.run_blocks import verdict_blocks
+from equipoise.model.units import MM, UM
+
+MOST = 60  # steps in a report, chosen: two pages
+
+
+def output_of(done: Keeping) -> Output:
+    """Return all that is handed over."""
+    bench = "real" if done.seed is None else "simulated"
+    logged = Logged("balance", "keep", bench, None, None, done.verdict)
+    return Output("keep", document(done), blocks(done), lambda: record_of(done), logged)
+
+
+def blocks(done: Keeping) -> Blocks:
+    """Return what masses did, and the verdict; steps were shown as they came."""
+    moved = f"{done.moves} moves of the masses while holding, {done.travel / MM:.3g} mm in all"
+    return (*paragraphs(moved), *verdict_blocks(done.verdict))
+
+
+def document(done: Keeping) -> View:
+    """Return the run as JSON."""
+    fields: dict[str, Any] = {
+        "steps": done.steps,
+        "verdict": done.verdict,
+        "moves": done.moves,
+        "travel": done.travel,
+        "course": done.course,
+        "truth": done.truth,
+        "provenance": _origin(done),
+    }
+    return KEEP.write(fields)
+
+
+def record_of(done: Keeping) -> RunRecord:
+    """Return the run as a report."""
+    goal = done.goal
+    names = ("target", "tolerance")
+    wanted = {
+        name: f"({', '.join(fixed(float(v) / UM, 1) for v in values)}) um"
+        for name, values in zip(names, (goal.target, goal.tolerance), strict=True)
+    }
+    drawn = []
+    if len(done.course.t) > 1:
+        figure = kept_com.draw(done.course, done.truth, goal.target, goal.tolerance)
+        drawn = [Picture("kept_com", kept_com.CAPTION, figure)]
+    sections: tuple[Section, ...] = (steps_section("Steps", done.steps[-MOST:], {}),)
+    return RunRecord(
+        title="Balance kept during an experiment",
+        requested=wanted,
+        testbed=done.testbed,
+        conclusion=blocks(done),
+        sections=sections,
+        origin=_origin(done),
+        figures=drawn,
+    )
+
+
+def _origin(done: Keeping) -> dict[str, str]:
+    drawn = {} if done.seed is None else {"seed": str(done.seed)}
+    return origin(testbed=done.testbed.source, **drawn)

@@ -1,0 +1,1 @@
+"""The torque on a platform second by second, divided among its causes."""

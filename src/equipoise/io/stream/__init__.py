@@ -1,0 +1,1 @@
+"""Datagrams for other programs, and what decodes them."""
