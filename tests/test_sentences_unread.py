@@ -20,7 +20,10 @@ READING = {
     "rstrip", "lower", "upper", "casefold",
 }  # fmt: skip
 MATCHING = {"match", "search", "fullmatch", "findall", "finditer", "sub", "split", "get"}
-LAYOUT = {("app/console/terminal.py", "complain")}  # joins the lines of an error to one
+LAYOUT = {
+    ("app/console/terminal.py", "complain"),  # joins the lines of an error to one
+    ("onboard/sources/filled.py", "filled"),  # placeholders of files in C
+}
 FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 
 

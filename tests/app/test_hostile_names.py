@@ -25,7 +25,8 @@ FILE_SHOWN = r"=1 [red]a[link=x]b \x1b]0;t\x07\u202e"
 MARKUP = "[red]a[/red] [link=x]b[/link] <script>c</script> #eval(1) $d @e =f ../../g"
 PAGE = re.compile(r"<script>c|data:text|onerror=")
 # What the other arguments of a command are, so that the one in question is what is wrong.
-GIVEN = {"TESTBED": "sputnix", "FILE": "run.csv", "SOURCE": "run.csv", "--testbed": "sputnix",
+GIVEN = {"LANGUAGE": "c", "--method": "ekf_9", "--law": "pid", "TESTBED": "sputnix",
+         "FILE": "run.csv", "SOURCE": "run.csv", "--testbed": "sputnix",
          "--out": "taken/x", "SHOWN": "run.csv", "OUT": "taken/x.csv", "RUN": "taken",
          "PAPER": "none", "--to": "urdf"}  # fmt: skip
 

@@ -21,7 +21,8 @@ BEGIN, END = "<!-- rooms: written by `make rooms` -->", "<!-- end of rooms -->"
 # in rows; a room that stands nowhere is an error.
 PLACES = {
     "app": (0, 0, 12, 3), "study": (0, 3, 4, 2), "procedure": (4, 3, 5, 2),
-    "planning": (0, 5, 4, 2), "simulation": (4, 5, 5, 2), "estimation": (0, 7, 5, 4),
+    "planning": (0, 5, 4, 2), "simulation": (4, 5, 3, 2), "onboard": (7, 5, 2, 2),
+    "estimation": (0, 7, 5, 4),
     "control": (5, 7, 2, 4), "assessment": (7, 7, 2, 4), "dynamics": (0, 11, 9, 1),
     "sensors": (0, 12, 4, 2), "actuators": (4, 12, 5, 2), "io": (9, 3, 3, 6),
     "hardware": (9, 9, 3, 5), "maths": (0, 14, 12, 2), "model": (0, 16, 12, 2),

@@ -143,6 +143,21 @@ DYNAMICS = _of(
     ("modal_motion.py", "r0 - a * p", "r0 + a * p", "dynamics/test_modal_motion.py"),
     ("modal_inputs.py", ".values) + read_at", ".values) - read_at",
      "dynamics/test_modal_motion.py"),
+    *((f"planar/{file}.py", text, broken, "dynamics/planar/test_planar_motion.py")
+      for file, text, broken in (
+        ("planar_motion", "dy[4 + j] -= carried[j]", "dy[4 + j] += carried[j]"),
+        ("planar_motion", "xx = table.floating_mass - inner(a, from_a)",
+         "xx = table.floating_mass + inner(a, from_a)"),
+        ("planar_motion", "along_x = y[PI] - inner(e, travel) - inner(a, free)",
+         "along_x = y[PI] - inner(e, travel) + inner(a, free)"),
+        ("planar_motion", "along_y = y[PI + 1] - inner(f, travel)",
+         "along_y = y[PI + 1] + inner(f, travel)"),
+        ("planar_motion", "table.pull[j] - c * found.v[j]", "table.pull[j] + c * found.v[j]"),
+        ("planar_motion", "spin[j] + now.momentum[j] + carried[j]",
+         "spin[j] + now.momentum[j] - carried[j]"),
+        ("friction_map", "(1.0 - hat.share_y) * low + hat.share_y * high",
+         "hat.share_y * low + (1.0 - hat.share_y) * high"),
+    )),
     ("lamp_warmth.py", "part * (aim - warm[-1])", "part * (aim + warm[-1])",
      "dynamics/test_lamp_warmth.py"),
     ("timeline.py", "if steps > MOST_STEPS:", "if steps > MOST_STEPS + 1:",
@@ -175,7 +190,7 @@ CONTROL = _of(
      "multiply(conjugate(target), q)", "control/elements/test_attitude_pid.py"),
     ("laws/ivanov_25s.py", "shift=target - estimate.com", "shift=target + estimate.com",
      "control/laws/test_ivanov_25s.py"),
-    ("laws/ivanov_25s.py", "EVERY * state.moves + (", "EVERY * (",
+    ("laws/ivanov_25s.py", "EVERY * moves + (", "EVERY * (",
      "control/laws/test_ivanov_25s.py"),
     ("elements/tilt_feedback.py", "gamma, 2 * ZETA * frequency * J", "gamma, ZETA * frequency * J",
      "control/elements/test_tilt_feedback.py"),
@@ -219,12 +234,24 @@ CONTROL = _of(
     ("laws/fully_actuated.py", "state.shift - params.adaption * params.mass * total",
      "state.shift + params.adaption * params.mass * total",
      "control/laws/test_fully_actuated.py::test_masses_move_as_printed"),
-    ("plant/settling.py", "bounds.rate * share**0.5", "bounds.rate * share",
+    ("plant/moving_means.py", "bounds.rate * share**0.5", "bounds.rate * share",
      "control/plant/test_settling.py"),
     ("plant/actuator_limits.py", "vector if size <= most else", "vector if size >= most else",
      "control/plant/test_actuator_limits.py"),
-    ("plant/pendulum.py", "cross(plant.axes.T @ v, plant.up)",
-     "cross(plant.up, plant.axes.T @ v)", "control/plant/test_pendulum.py"),
+    ("plant/tilt_axes.py", "-(v[0] * a[1] + v[1] * b[1])", "(v[0] * a[1] + v[1] * b[1])",
+     "control/plant/test_pendulum.py"),
+    ("plant/tilt_axes.py", "size = -size_of(gravity)", "size = size_of(gravity)",
+     "control/plant/test_pendulum.py"),
+    ("plant/tilt_axes.py", "- d[k] * w[k] * w[k] * tilt[k]", "+ d[k] * w[k] * w[k] * tilt[k]",
+     "control/plant/test_pendulum.py"),
+    ("plant/moving_means.py", "share * (means[4 + k] - means[7 + k])",
+     "share * (means[7 + k] - means[4 + k])", "control/laws/test_pid.py"),
+    ("elements/tilt_pid.py", "(f * tilt[0] - left[0] / p[0])", "(f * tilt[0] + left[0] / p[0])",
+     "control/laws/test_pid.py"),
+    ("elements/height_step.py", "rise = along - inner", "rise = along + inner",
+     "control/laws/test_pid.py"),
+    ("elements/height_step.py", "- inner(up, com) - depth", "- inner(up, com) + depth",
+     "control/laws/test_pid.py onboard/test_laws.py"),
 )  # fmt: skip
 
 ASSESSMENT = _of(
@@ -298,6 +325,20 @@ ESTIMATION = (*_of(
         ("stretch_torque", "stretch_torque", "EPS * np.cross(at.g, axis)",
          "EPS * np.cross(axis, at.g)"),
     )),
+    ("regression/solvers/factored.py", "u - gain[i] * (h[j] / before)",
+     "u + gain[i] * (h[j] / before)", "onboard/test_methods.py"),
+    ("regression/solvers/factored.py", "gain[i] += v * u", "gain[i] -= v * u",
+     "onboard/test_methods.py"),
+    ("planar/planar_start.py", "found[SPEED] + pulled - once @ found[RUBBED]",
+     "found[SPEED] + pulled + once @ found[RUBBED]",
+     "estimation/planar/test_planar_start.py"),
+    ("planar/planar_start.py", "A[:, :, 6:9] + by_com", "A[:, :, 6:9] - by_com",
+     "estimation/planar/test_planar_start.py"),
+    ("planar/planar_start.py", "-0.5 * mass * testbed.gravity * t**2",
+     "0.5 * mass * testbed.gravity * t**2", "estimation/planar/test_planar_start.py"),
+    ("planar/planar_problem.py", "x, y = sx + lx, sy + ly", "x, y = sx - lx, sy - ly",
+     "estimation/planar/test_planar_fit.py::"
+     "test_a_camera_whose_vertical_leans_is_separated_from_the_slope"),
     ("output_error/kernels/gauss_newton.py", "cost += 0.5 * posed.coupling",
      "cost -= 0.5 * posed.coupling",
      "procedure/balancing/test_hands_then_masses.py::test_cost_and_information_of_a_coupled_prior"),
@@ -458,6 +499,10 @@ ESTIMATION = (*_of(
 
 SIMULATION = _of(
     "simulation",
+    ("planar/planar_bench.py", "tick(stamps - sensor.delay)), P : P + 2]",
+     "tick(stamps)), P : P + 2]", "simulation/planar/test_planar_bench.py"),
+    ("planar/true_table.py", "true.friction.reshape(2, 2)", "true.friction.reshape(2, 2).T",
+     "simulation/planar/test_true_table.py"),
     ("hands.py", "com = body.first_moment / known.body.mass", "com = body.com",
      "procedure/balancing/test_hands_then_masses.py"
      "::test_the_released_platform_is_the_one_that_was_loaded"),
@@ -878,7 +923,46 @@ APP = _of(
      "normalised_difference(other, parameter) if", "app/charts/test_charts.py"),
 )  # fmt: skip
 
+ONBOARD = _of("onboard", *(
+    (f"translation/{file}.py", text, broken, "onboard/test_translation.py")
+    for file, text, broken in (
+        ("operations", 'Code(kind, f"(-{text})")', 'Code(kind, f"({text})")'),
+        ("operations", 'f"({b} {sign} {a} ? {b} : {a})"', 'f"({a} {sign} {b} ? {b} : {a})"'),
+        ("operations", "return Known(ends) if not found else",
+         "return Known(not ends) if not found else"),
+        ("elements", "terms, constant = list[str](), 0", "terms, constant = list[str](), 1"),
+        ("storing", "parts = [self.kept(p) if isinstance(p, Code) else p for p in parts]", "pass"),
+        ("statements", "node.body if truth else", "node.body if not truth else"),
+    )
+), (
+    "translation/unit.py", 'f".v[{index}]" if kind.is_even', 'f".v[0]" if kind.is_even',
+    "onboard/test_translation.py",
+), (
+    "translation/literals.py", "math.copysign(1.0, number) > 0", "number >= 0",
+    "onboard/test_translation.py",
+), *(
+    ("program/momentum_recursion.py", text, broken, "onboard/test_methods.py")
+    for text, broken in (
+        ("-size * bend", "size * bend"),
+        ("h[EQUATIONS + j] = -total[i, j]", "h[EQUATIONS + j] = total[i, j]"),
+        ("total[i, UNKNOWNS] - k[i]", "total[i, UNKNOWNS] + k[i]"),
+        ("weight[i] - swirl[i]", "weight[i] + swirl[i]"),
+    )
+), (
+    "program/camera_filter.py", "memory.travelling[k] and not moves", "memory.travelling[k]",
+    "onboard/test_methods.py",
+), (
+    "program/displacements.py", "/ rails.step[k] + 0.5)", "/ rails.step[k])",
+    "onboard/test_laws.py",
+), (
+    "program/level_by_pid.py", "shift[0] - requested[0], shift", "requested[0] - shift[0], shift",
+    "onboard/test_laws.py",
+), (
+    "program/moves_every_25s.py", "own.target[j] - out.com[j]", "own.target[j] + out.com[j]",
+    "onboard/test_laws.py",
+))  # fmt: skip
+
 MUTANTS = (
     *MODEL, *MATHS, *ACTUATORS, *SENSORS, *DYNAMICS, *CONTROL, *ASSESSMENT, *ESTIMATION,
-    *SIMULATION, *DESIGN, *PROCEDURE, *STUDY, *IO, *HARDWARE, *APP,
+    *SIMULATION, *DESIGN, *PROCEDURE, *STUDY, *IO, *HARDWARE, *APP, *ONBOARD,
 )  # fmt: skip

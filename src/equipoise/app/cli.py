@@ -26,6 +26,7 @@ from equipoise.app.commands.design import design
 from equipoise.app.commands.devices import devices
 from equipoise.app.commands.emulate import emulate
 from equipoise.app.commands.export import export
+from equipoise.app.commands.generate import generate
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.import_ import import_
 from equipoise.app.commands.inertia import inertia
@@ -80,7 +81,7 @@ GROUPS: dict[str, tuple[Callable[..., int], ...]] = {
     "Identification": (identify, calibrate, inertia, assess, ledger, observe, methods),
     "Balancing": (balance, keep, laws),
     "Planning": (plan, design),
-    "Hardware": (devices, check, record, emulate, print_board, calibrate_camera),
+    "Hardware": (devices, check, record, emulate, print_board, calibrate_camera, generate),
     "Studies": (compare, reproduce),
     "Files": (report, logbook, export, precompile),
 }

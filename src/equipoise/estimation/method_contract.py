@@ -15,8 +15,8 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card, Choice
 from equipoise.model.outcome import outcome
-from equipoise.model.reasons.estimate_reasons import EstimateReason
-from equipoise.model.reasons.reason import Number
+from equipoise.model.reasons.reason import Code, Number
+from equipoise.model.reasons.table_reasons import TableReason
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.version import __version__
@@ -49,6 +49,7 @@ class Method:
 
     card: Card
     run: Callable[[Recording, Testbed, Options], Estimate]
+    on_table: bool = False  # whether its model has a bearing that moves over a table
 
 
 def ignored(card: Card, options: Options) -> tuple[str, ...]:
@@ -68,6 +69,8 @@ def estimated(method: Method, recording: Recording, testbed: Testbed, options: O
         known = ", ".join(f"--{choice}" for choice in method.card.heeds) or "none of these options"
         raise InputError("method", f"--{name} with {method.card.name}, which knows {known}",
                          "another method, such as trajectory, or no such option")  # fmt: skip
+    if recording.position is not None and testbed.table is not None and not method.on_table:
+        return refused(method.card, TableReason.BEARING_MOVES)
     found = method.run(recording, testbed, replace(options, budget=options.budget.renewed()))
     return judged_by_stays(found, recording, testbed)
 
@@ -77,6 +80,6 @@ def origin_of(recording: Recording) -> dict[str, str]:
     return {"version": __version__, "source": recording.source, "sha256": recording.sha256}
 
 
-def refused(card: Card, why: EstimateReason, **numbers: Number) -> Estimate:
+def refused(card: Card, why: Code, **numbers: Number) -> Estimate:
     """Return the estimate of a method that could not begin, and why; numbers are in SI."""
     return Estimate(card.name, outcome(why, **numbers), (), np.zeros((0, 0)))

@@ -3,7 +3,7 @@
 Quaternions as in ``maths.attitude``, of which these are the single-sample forms for kernels.
 """
 
-import numpy as np
+import math
 
 from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats, Triple
@@ -21,7 +21,7 @@ def turn(p: Floats, q: Floats) -> tuple[float, float, float]:
     sine = (x * x + y * y + z * z) ** 0.5
     if w < 0:
         w, x, y, z = -w, -x, -y, -z
-    scale = 2.0 if sine < NO_TURN else 2.0 * np.arctan2(sine, w) / sine
+    scale = 2.0 if sine < NO_TURN else 2.0 * math.atan2(sine, w) / sine
     return scale * x, scale * y, scale * z
 
 
@@ -29,8 +29,8 @@ def turn(p: Floats, q: Floats) -> tuple[float, float, float]:
 def turned(q: Floats, x: float, y: float, z: float) -> tuple[float, float, float, float]:
     """Return q (x) exp(rotation vector), which is in body axes and rad."""
     angle = (x * x + y * y + z * z) ** 0.5
-    s = 0.5 if angle < NO_TURN else np.sin(0.5 * angle) / angle
-    c, a, b, d = np.cos(0.5 * angle), s * x, s * y, s * z
+    s = 0.5 if angle < NO_TURN else math.sin(0.5 * angle) / angle
+    c, a, b, d = math.cos(0.5 * angle), s * x, s * y, s * z
     w, i, j, k = q[0], q[1], q[2], q[3]
     return (
         w * c - i * a - j * b - k * d,

@@ -11,7 +11,8 @@ from enum import StrEnum
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.implausible_reasons import ImplausibleReason
 from equipoise.model.reasons.mass_budget_reasons import MassBudgetReason
-from equipoise.model.reasons.reason import Number, Reason, Reasoned, one_reason
+from equipoise.model.reasons.reason import Code, Number, Reason, Reasoned, one_reason
+from equipoise.model.reasons.table_reasons import TableReason
 
 
 class Trust(StrEnum):
@@ -37,13 +38,14 @@ class OutcomeCode(StrEnum):
 
 
 WITH_NUMBERS = (OutcomeCode.ESTIMATED, OutcomeCode.PART_UNOBSERVABLE, OutcomeCode.SCALE_OPEN)
-HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
+HAPPENED: Mapping[OutcomeCode, tuple[Code, ...]] = {  # where it is not ESTIMATED
     OutcomeCode.PART_UNOBSERVABLE: (Why.PART_UNOBSERVABLE, Why.DRIFT_UNOBSERVABLE),
     OutcomeCode.SCALE_OPEN: (Why.RATIOS_ONLY, Why.LINEAR_RATIOS),
     OutcomeCode.NOISE_TOO_LARGE: (Why.REGRESSOR_NOISE_TOO_LARGE,),
     OutcomeCode.MODEL_REJECTED: (
         Why.UNEXPLAINED_ATTITUDE,
         Why.UNEXPLAINED_RATE,
+        TableReason.UNEXPLAINED_ON_TABLE,
         Why.TOO_MANY_EVENTS,
         Why.LAY_ON_STOP,
         Why.UNKNOWN_TORQUE,
@@ -69,6 +71,8 @@ HAPPENED: Mapping[OutcomeCode, tuple[Why, ...]] = {  # where it is not ESTIMATED
         Why.TOO_FEW_ROWS_FOR_FILTER,
         Why.HARDLY_MOVED,
         Why.NO_CAMERA,
+        TableReason.NO_POSITION,
+        TableReason.BEARING_MOVES,
         Why.NO_ATTITUDE,
         Why.NO_GYRO,
         Why.NO_KNOWN_INPUT,
@@ -137,6 +141,6 @@ class Outcome(Reasoned):
         return self.trust in (Trust.NOT_TRUSTWORTHY, Trust.NOT_USABLE)
 
 
-def outcome(code: Why, *parameters: str, **numbers: Number) -> Outcome:
+def outcome(code: Code, *parameters: str, **numbers: Number) -> Outcome:
     """Return the outcome of one reason; numbers are in SI."""
     return Outcome(one_reason(code, *parameters, **numbers))

@@ -79,6 +79,7 @@ class Recording(Plotted, FromMemory):
     lamp: Samples | None = None  # (n, 1) of its full power, from each row to the next
     accelerometer: Samples | None = None  # (n, 3) m/s^2, specific force, body axes: +g up at rest
     sun: Samples | None = None  # (n, 3) unit vectors to the lamp, body axes
+    position: Samples | None = None  # (n, 2) m, of P on a planar table, laboratory axes
     # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
     # when they differ by no more than rounding. A mean of frames is shorter than one. Not written.
     attitude_norm: Samples | None = None
@@ -102,7 +103,7 @@ class Recording(Plotted, FromMemory):
 
 
 CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field", "temperature",
-            "lamp", "accelerometer", "sun")  # fmt: skip
+            "lamp", "accelerometer", "sun", "position")  # fmt: skip
 INPUTS = ("masses", "momentum", "torque", "devices", "lamp")  # known between their rows
 
 

@@ -38,6 +38,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.modes import Mode
 from equipoise.model.presentation import Shown
 from equipoise.model.reasons.reason import Reason
+from equipoise.model.table_top import PlanarTable, PositionSensor, TrueTable
 from equipoise.model.torque_terms import GROUPS
 from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 from equipoise.model.weights import Weight, WeightGrid
@@ -170,6 +171,7 @@ class Truth:
     magnetometer_mounting: Vector3 = field(default_factory=nothing)  # rad
     lamp: TrueLamp | None = None  # None: there is none, or it is always off
     modes: tuple[Mode, ...] = ()  # what is not rigid
+    table: TrueTable | None = None  # None: level, without friction; P starts at rest in the middle
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -211,6 +213,8 @@ class Testbed(Shown):
     sun: SunSensor | None = None
     magnetometer: Magnetometer | None = None  # of ``field_N``
     thermometer: Thermometer | None = None
+    position: PositionSensor | None = None
+    table: PlanarTable | None = None  # that P moves over; None: P stands still
     # of J_P (xx yy zz xy xz yz, kg m^2) and com (m), masses at home; not of a file: as a balancing
     # by hand has found them; None: independent, as the sds above say
     body_covariance: Square | None = None

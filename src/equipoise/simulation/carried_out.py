@@ -33,8 +33,10 @@ from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.draw_truth import own_truth
 from equipoise.simulation.free_start import freely
+from equipoise.simulation.planar.planar_bench import PlanarBench
 
 HAND = 9  # chosen: sets the hand's draws apart from the bench's own, which spawn from the seed
+MadeBench = SimulatedBench | PlanarBench
 Moves = Sequence[tuple[float, Mapping[str, float]]]
 
 
@@ -74,6 +76,13 @@ def bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> Simul
     return SimulatedBench(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
 
 
+def planar_bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> PlanarBench:
+    """Return the same of a platform whose bearing floats over a table."""
+    if manoeuvre is None:
+        return PlanarBench(testbed, seed)
+    return PlanarBench(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
+
+
 def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
     """Return all commands to a bench, in order of time."""
     moves = [Command(t, targets, {}) for t, targets in manoeuvre.moves]
@@ -84,12 +93,19 @@ def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
 
 def performed(
     testbed: Testbed, seed: int, manoeuvre: Manoeuvre | None, duration: float, moves: Moves = ()
-) -> tuple[SimulatedBench, Recording]:
+) -> tuple[MadeBench, Recording]:
     """Return a simulated bench and what it records: of a manoeuvre, else of ``duration`` seconds.
 
     The latter with masses sent to targets (m) at times (s) in order; the platform is let go so that
     it meets no stop, where it can be.
     """
+    if testbed.table is not None:
+        floating = planar_bench_for(testbed, manoeuvre, seed)
+        return floating, (
+            recorded(floating, duration, moves)
+            if manoeuvre is None
+            else carried_out(floating, manoeuvre)
+        )
     if manoeuvre is None:
         return freely(testbed, seed, lambda bench: recorded(bench, duration, moves))
     bench = bench_for(testbed, manoeuvre, seed)

@@ -56,7 +56,7 @@ def test_every_module_that_draws_is_here(figures):
 DRAWN_BY = {
     "catalogue": {
         "attitude_fit", "residuals", "rates", "tracked_com", "tracked_rate", "moved_com",
-        "balanced_com", "displacements",
+        "balanced_com", "displacements", "table_friction",
     },
     "design_catalogue": {"reach", "torque_budget"},
 }  # fmt: skip

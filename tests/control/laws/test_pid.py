@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.control.elements import height_adjustment
+from equipoise.control.elements import height_adjustment, height_step, tilt_pid
 from equipoise.control.elements.ziegler_nichols import measured, ultimate
 from equipoise.control.laws import pid
 from equipoise.control.plant import pendulum
@@ -102,7 +102,7 @@ def test_masses_ten_times_slower_are_stable_and_slow():
 
 def test_without_sparing_slow_masses_do_not_damp(monkeypatch):
     """The same platform with its demand cut off by the masses: late, and the swing stays."""
-    monkeypatch.setattr(pid.pendulum, "spared", lambda *_: 1.0)
+    monkeypatch.setattr(tilt_pid, "followed_share", lambda *_: 1.0)
     assert at_last(swung()) > 0.01
 
 
@@ -144,7 +144,7 @@ def test_measurements_repeat_at_smaller_depth_until_the_height_is_known():
     run = flown(5)
     assert run.measurements == 3
     depths = [s.search.height.depth for s in run.states if s.search.level is not None]
-    assert min(depths) == height_adjustment.SHALLOW
+    assert min(depths) == height_step.SHALLOW
 
 
 def late(testbed, delay):

@@ -7,6 +7,7 @@ import pytest
 
 from equipoise.control.law import Sample
 from equipoise.control.plant import pendulum as h
+from equipoise.control.plant.tilt_axes import SPARE
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.axes_across import axes_across
 from equipoise.model.errors import InputError
@@ -80,7 +81,7 @@ def test_a_demand_is_spared_to_what_masses_can_follow():
     rate = np.array([0.05, 0.0])
     share = h.spared(plant, zero, d, zero, rate)
     slope = share * 1e-3 * 0.05 * plant.frequency[0]
-    assert slope == pytest.approx(h.SPARE * plant.slew)
+    assert slope == pytest.approx(SPARE * plant.slew)
     assert h.spared(plant, zero, d, zero, rate * 1e-3) == 1.0
 
 

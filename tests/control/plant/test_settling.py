@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from equipoise.control.plant.moving_means import at_depth
 from equipoise.control.plant.pendulum import hanging
-from equipoise.control.plant.settling import at_depth, bounds
+from equipoise.control.plant.settling import bounds
 from tests.support.simple_loop import guess
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from equipoise.model.recording import Recording
     from equipoise.model.testbed import Testbed
-    from equipoise.simulation.bench import SimulatedBench
+    from equipoise.simulation.carried_out import MadeBench
 
 
 def simulate(
@@ -62,7 +62,7 @@ def simulate(
     if planned is not None and (moves or duration_s is not None):
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
 
-    def made(bed: "Testbed", seed: int) -> "tuple[SimulatedBench, Recording]":
+    def made(bed: "Testbed", seed: int) -> "tuple[MadeBench, Recording]":
         from equipoise.simulation.carried_out import performed
 
         manoeuvre = None if planned is None else planned.manoeuvre
@@ -83,7 +83,7 @@ def _series(
     bed: "Testbed",
     seed: int,
     runs: int,
-    made: "Callable[[Testbed, int], tuple[SimulatedBench, Recording]]",
+    made: "Callable[[Testbed, int], tuple[MadeBench, Recording]]",
     out: Path,
 ) -> int:
     """Write the recordings of a series into a folder, all of them or none."""
@@ -95,7 +95,7 @@ def _series(
     check_series_folder("--out", out)
     check_outputs(out)
     platform = with_drawn_platform(bed, seed)
-    runs_made = list[tuple["SimulatedBench", "Recording"]]()
+    runs_made = list[tuple["MadeBench", "Recording"]]()
     with counted(f"simulating {runs} runs") as progress:
         for k, each in enumerate(seeds_of(runs, seed), 1):
             runs_made.append(made(platform, each))
@@ -105,7 +105,7 @@ def _series(
     return 0
 
 
-def _show_touches(benches: "Sequence[SimulatedBench]") -> None:
+def _show_touches(benches: "Sequence[MadeBench]") -> None:
     """Say when platforms met their stop."""
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.run_blocks import finding_items

@@ -14,6 +14,7 @@ from equipoise.app.figures.estimate import (
     moved_com,
     rates,
     residuals,
+    table_friction,
     tracked_com,
     tracked_rate,
 )
@@ -45,6 +46,9 @@ def of_estimate(
     """Yield the figures that suit the method of an estimate."""
     if courses.fit is not None:
         yield from of_fit(recording, courses.fit)
+    if courses.table is not None:
+        drawn = table_friction.draw(courses.table)
+        yield Picture("table_friction", table_friction.CAPTION, drawn)
     if courses.tracked is None:
         yield from of_course(recording, estimate)
     else:

@@ -25,6 +25,7 @@ UNITS = {
     "field": "T",
     "temperature": "degC",
     "accelerometer": "m/s2",
+    "position": "m",
 }
 PARTS = {
     "attitude": ("w", "x", "y", "z"),
@@ -36,6 +37,7 @@ PARTS = {
     "lamp": ("power",),
     "accelerometer": AXES,
     "sun": AXES,
+    "position": ("x", "y"),
 }
 OF_DEVICES = {"wheel": "rad/s", "gimbal": "rad", "dipole": "A m2", "cage": "T", "jet": "N m"}
 

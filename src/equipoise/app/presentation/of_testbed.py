@@ -19,7 +19,8 @@ def lines(bed: Testbed) -> Iterator[str]:
     yield from list(of_mass_properties.lines(bed.body))[1:]
     yield f"  masses     {', '.join(bed.mass_names) or 'none'}"
     sensors = {"attitude": bed.attitude, "gyro": bed.gyro, "accelerometer": bed.accelerometer,
-               "sun": bed.sun, "magnetometer": bed.magnetometer}  # fmt: skip
+               "sun": bed.sun, "magnetometer": bed.magnetometer,
+               "position": bed.position}  # fmt: skip
     there = [f"{name} {each.rate:g} Hz" for name, each in sensors.items() if each is not None]
     yield f"  sensors    {', '.join(there) or 'none'}"
     if bed.devices:

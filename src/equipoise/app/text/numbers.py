@@ -77,6 +77,12 @@ SHOWN = {
     "1/(kg m)": Unit("um/(kg m2)", UM),
 }
 TRAVEL = Unit("mm", MM)
+ON_TABLE = {  # by the stem of a name: slopes, and how the bearing moves over a table
+    "slope": Unit("um/m", UM),
+    "lean": Unit("um/m", UM),
+    "position": Unit("mm", MM),
+    "velocity": Unit("mm/s", MM),
+}
 LATE = Unit("ms", MS)
 TYPESET = {
     "um": "µm",
@@ -85,6 +91,7 @@ TYPESET = {
     "uN m s2": "µN m s²",
     "um/min": "µm/min",
     "um/K": "µm/K",
+    "um/m": "µm/m",
     "uT": "µT",
     "um/sqrt(min)": "µm/√min",
     "uJ": "µJ",
@@ -102,6 +109,8 @@ def unit_for(name: str, si: str) -> Unit:
     """Return the unit in which to show a parameter; where masses stop in mm, when in ms."""
     if si == "m" and name.startswith(("error_", "backlash_", "play_", "scatter_")):
         return TRAVEL
+    if (stem := name.rpartition("_")[0]) in ON_TABLE:
+        return ON_TABLE[stem]
     if si == "s" and name.startswith(("mass_lag", "departure_", "arrival_", "spread_")):
         return LATE
     return SHOWN.get(si, Unit(si, 1.0))

@@ -22,10 +22,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.control.elements.height_step import along_for, depth_for, is_known
+from equipoise.control.elements.height_step import last_shift as shift_to_target
+from equipoise.control.elements.tilt_pid import shift_at
 from equipoise.control.law import Sample
-from equipoise.control.plant.actuator_limits import limited
-from equipoise.control.plant.pendulum import Hanging, shift_for
-from equipoise.control.plant.settling import Bounds, Rest, at_depth, is_quiet, settle
+from equipoise.control.plant.moving_means import Bounds, at_depth
+from equipoise.control.plant.pendulum import Hanging, pair, shift_for, tilt_axes, triple
+from equipoise.control.plant.settling import Rest, is_quiet, settle
 from equipoise.control.plant.swing_estimates import shows
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.command import Command, Measurement
@@ -36,10 +39,6 @@ from equipoise.model.reasons.reason import Reason, one_reason
 SWING = 0.06  # rad, chosen: 7 degrees from side to side
 DURATION = 60.0  # s, chosen: three swings or more at first
 BEFORE = 5.0  # s, chosen: of rest, in the record of a measurement
-SURE = 3.0  # sds, chosen
-SHALLOW = 1e-5  # m, chosen: a swing of a minute or two
-CLOSE = 1e-6  # m, chosen: one sd of the height that needs no further measurement
-MOST_MEASUREMENTS = 4  # chosen: a measurement reduces the sd to a third or less
 TINY = 1e-9  # m, chosen: a step of masses that have none
 ARRIVED = 2.0  # motor steps, chosen
 PATIENCE = 5.0  # s, chosen: beyond twice the travel, for fine masses that are slower
@@ -110,8 +109,8 @@ def levelling(
 
 def shift_at_height(search: HeightSearch, v: Floats) -> Vector3:
     """Return the shift (m) that gives v within reach, at the height that is wanted."""
-    plant = search.plant
-    return shift_for(plant, limited(v, plant.reach)) + search.height.along * plant.up
+    plant, along = search.plant, search.height.along
+    return np.array(shift_at(tilt_axes(plant), triple(plant.up), pair(v), plant.reach, along))
 
 
 def raised_note(search: HeightSearch) -> tuple[Reason, ...]:
@@ -123,17 +122,16 @@ def raised(search: HeightSearch, estimate: Estimate) -> Height:
     """Return where to level next, after a measurement that shows the centre of mass."""
     up, measurements = search.plant.up, search.height.measurements + 1
     sd = float(np.sqrt(up @ estimate.covariance_of(COM) @ up))
-    known = sd <= CLOSE or measurements >= MOST_MEASUREMENTS
-    depth = SHALLOW if known else max(SURE * sd, SHALLOW)
-    along = float(up @ (search.target - estimate.com)) - depth
+    known = is_known(sd, measurements)
+    depth = depth_for(sd, known)
+    along = along_for(triple(up), triple(search.target), triple(estimate.com), depth)
     return Height(along, depth, measurements, known)
 
 
 def last_shift(search: HeightSearch, level: Vector3) -> Vector3:
     """Return the shift (m) to the target from one that levels the platform at this height."""
-    up, height = search.plant.up, search.height
-    sideways: Vector3 = level + search.target
-    return sideways - up * (up @ sideways) + up * (height.along + height.depth)
+    up, along = triple(search.plant.up), search.height.along + search.height.depth
+    return np.array(shift_to_target(up, triple(level), triple(search.target), along))
 
 
 def once_level(search: HeightSearch, sample: Sample, level: Vector3) -> Sent:

@@ -57,9 +57,12 @@ def after_estimate(state: State, estimate: Estimate, target: Vector3) -> State:
     return replace(state, moves=moves, shift=target - estimate.com, finished=made)
 
 
-def due(state: State) -> float:
-    """Return how long after the first sample (s) the law next does something."""
-    return EVERY * state.moves + (ARRIVAL if state.finished else EVERY)
+def due_after(moves: int, made: bool) -> float:
+    """Return how long after the first sample (s) the next move is due, or the end after the last.
+
+    ``made``: all moves are made. A scalar function, which a micro-controller runs too.
+    """
+    return EVERY * moves + (ARRIVAL if made else EVERY)
 
 
 def step(state: State, sample: Sample | Estimate, target: Vector3) -> tuple[State, Command]:
@@ -70,7 +73,7 @@ def step(state: State, sample: Sample | Estimate, target: Vector3) -> tuple[Stat
     if state.began is None:
         state = replace(state, began=sample.t)
     assert state.began is not None
-    left = state.began + due(state) - sample.t  # s
+    left = state.began + due_after(state.moves, bool(state.finished)) - sample.t  # s
     if state.finished and left <= PERIOD:
         return state, Command(shift=state.shift, finished=state.finished)
     if left > PERIOD * 1.5:

@@ -48,7 +48,9 @@ from equipoise.control.elements.loop_stability import radius, steps_late, swing_
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant import pendulum
 from equipoise.control.plant.actuator_limits import limited
-from equipoise.control.plant.settling import PERIOD, Bounds, finest_bounds
+from equipoise.control.plant.moving_means import Bounds
+from equipoise.control.plant.settling import PERIOD, finest_bounds
+from equipoise.control.plant.tilt_axes import SPARE
 from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -261,7 +263,7 @@ def filtered(state: State, x: Floats, params: Params) -> Floats:
     """Return u_ad after a step, no faster than masses can follow, rad/s^2."""
     share = np.array([axis.share for axis in params.axes])
     way = share * (-matched(state, x) - state.u_ad) / params.plant.gain
-    most = params.plant.slew * PERIOD * (1 - pendulum.SPARE)
+    most = params.plant.slew * PERIOD * (1 - SPARE)
     return state.u_ad + params.plant.gain * limited(way, most)
 
 

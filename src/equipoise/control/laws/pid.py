@@ -36,17 +36,19 @@ import numpy as np
 from equipoise.control.elements import height_adjustment as heights
 from equipoise.control.elements import ziegler_nichols as tuning
 from equipoise.control.elements.loop_stability import Sampled, closed, radius, steps_late
+from equipoise.control.elements.tilt_pid import Gains, Integral, damped, pid_step
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant import pendulum
+from equipoise.control.plant.moving_means import Bounds
 from equipoise.control.plant.settling import (
     PERIOD,
-    Bounds,
     Rest,
     bounds,
     finest_bounds,
     is_quiet,
     settle,
 )
+from equipoise.control.plant.tilt_axes import Feedback
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -169,11 +171,17 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 # --- Step ------------------------------------------------------------------------------------
 
 
+def both(gains: Pair, plant: pendulum.Hanging) -> Gains:
+    """Return the gains of both axes with what limits them."""
+    (p, q), (i, j), (d, e) = zip(*gains, strict=True)
+    feedback = Feedback((p, q), (d, e), pendulum.pair(plant.frequency), plant.slew)
+    return Gains(feedback, (i, j))
+
+
 def damping(state: State, sample: Sample, params: Params) -> Floats:
     """Return -f K_d rate, m."""
-    rate = pendulum.rate_of(params.plant, sample)
-    d = np.array([gains.derivative for gains in state.gains])
-    return -pendulum.spared(params.plant, 0 * d, d, np.zeros(2), rate) * d * rate
+    rate = pendulum.pair(pendulum.rate_of(params.plant, sample))
+    return np.array(damped(both(state.gains, params.plant), rate))
 
 
 def settle_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
@@ -239,16 +247,16 @@ def level_phase(state: State, sample: Sample, params: Params) -> tuple[State, Co
     tilt, rate = pendulum.tilt_of(plant, sample), pendulum.rate_of(plant, sample)
     assert state.integral is not None
     assert state.requested is not None
-    p, i, d = np.array(state.gains).T
     height = state.search.height
-    i = i * (height.depth / plant.depth) ** 0.5
-    f = pendulum.spared(plant, p, d, tilt, rate)
     undelivered = pendulum.turned(plant, sample.shift - state.requested)
-    integral = state.integral + PERIOD * (f * i * tilt - undelivered * i / p)
-    shift = heights.shift_at_height(state.search, -f * (p * tilt + d * rate) - integral)
+    before = Integral(pendulum.pair(state.integral), pendulum.pair(undelivered))
+    time = PERIOD * (height.depth / plant.depth) ** 0.5
+    gains = both(state.gains, plant)
+    v, integral = pid_step(gains, pendulum.pair(tilt), pendulum.pair(rate), before, time)
+    shift = heights.shift_at_height(state.search, np.array(v))
     quiet = params.quiet if height.measurements else params.rough
     search, command = heights.levelling(state.search, sample, shift, quiet)
-    return replace(state, integral=integral, requested=shift, search=search), command
+    return replace(state, integral=np.array(integral), requested=shift, search=search), command
 
 
 def level_again(state: State) -> tuple[State, Command]:

@@ -26,9 +26,19 @@ import numpy as np
 
 from equipoise.control.law import Sample
 from equipoise.control.plant.actuator_limits import filling_time, greatest_shift, greatest_slew
+from equipoise.control.plant.tilt_axes import (
+    Feedback,
+    Pair,
+    TiltAxes,
+    followed_share,
+    rate_along,
+    shift_with,
+    tilt_along,
+    turned_along,
+)
 from equipoise.maths.axes_across import axes_across
 from equipoise.maths.linalg import cross
-from equipoise.model.arrays import Floats, Series, Vector3
+from equipoise.model.arrays import Floats, Series, Triple, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
@@ -37,7 +47,6 @@ from equipoise.sensors.timing import lateness
 SURE = 3.0  # sds of the height, chosen
 LIKELY = 2.0  # sds of the sideways offset, chosen
 SHARE = 0.7  # of the tilt limit, chosen: where it then rests; let go level it swings to twice that
-SPARE = 0.7  # chosen: of the masses' speed for tilt and rate; the rest is the integral's
 ALONG = 0.5  # cosine, chosen: a rail nearer than 60 degrees counts for an axis
 SHALLOWEST = 1e-4  # m, chosen: a swing of half a minute
 
@@ -64,33 +73,47 @@ class Hanging(NamedTuple):
         return np.sqrt(self.gain * self.depth)
 
 
+def triple(vector: Vector3) -> Triple:
+    """Return a vector as three numbers."""
+    return float(vector[0]), float(vector[1]), float(vector[2])
+
+
+def pair(values: Floats) -> Pair:
+    """Return what belongs to both axes as two numbers."""
+    return float(values[0]), float(values[1])
+
+
+def tilt_axes(plant: Hanging) -> TiltAxes:
+    """Return the axes as numbers."""
+    first, second = plant.axes
+    return TiltAxes(triple(first), triple(second), triple(cross(plant.up, first)),
+                    triple(cross(plant.up, second)))  # fmt: skip
+
+
 def tilt_of(plant: Hanging, sample: Sample) -> Floats:
     """Return the tilt theta about both axes, rad."""
-    vertical = -sample.gravity / float(np.linalg.norm(sample.gravity))
-    return plant.axes @ cross(vertical, plant.up)
+    return np.array(tilt_along(tilt_axes(plant), triple(sample.gravity)))
 
 
 def rate_of(plant: Hanging, sample: Sample) -> Floats:
     """Return the rate about both axes, rad/s."""
-    return plant.axes @ sample.rate
+    return np.array(rate_along(tilt_axes(plant), triple(sample.rate)))
 
 
 def shift_for(plant: Hanging, v: Floats) -> Vector3:
     """Return the horizontal shift (m) whose u x s is v along the axes."""
-    return cross(plant.axes.T @ v, plant.up)
+    return np.array(shift_with(tilt_axes(plant), pair(v)))
 
 
 def turned(plant: Hanging, shift: Vector3) -> Floats:
     """Return v = u x s along the axes, m: the way back from ``shift_for``."""
-    return plant.axes @ cross(plant.up, shift)
+    return np.array(turned_along(tilt_axes(plant), triple(shift)))
 
 
 def spared(plant: Hanging, p: Floats, d: Floats, tilt: Floats, rate: Floats) -> float:
     """Return how much of v = -(p tilt + d rate) the masses can follow through a swing, 0 to 1."""
-    w = plant.frequency
-    slope = np.hypot(w * (p * tilt + d * rate), p * rate - d * w**2 * tilt)
-    fastest = float(np.linalg.norm(slope))
-    return min(1.0, SPARE * plant.slew / fastest) if fastest > 0 else 1.0
+    feedback = Feedback(pair(p), pair(d), pair(plant.frequency), plant.slew)
+    return followed_share(feedback, pair(tilt), pair(rate))
 
 
 def sensor_delay(testbed: Testbed) -> float:

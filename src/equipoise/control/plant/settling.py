@@ -11,13 +11,14 @@ It is quiet while the mean tilt, the mean rate and m - M of the shift all stay w
 masses. Tilt times depth is the remaining offset: a bound on it is the same on every platform.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
 from equipoise.control.law import Sample
-from equipoise.control.plant.pendulum import Hanging, rate_of, tilt_of
+from equipoise.control.plant.moving_means import Bounds, follow_means, is_still
+from equipoise.control.plant.pendulum import Hanging, pair, rate_of, tilt_of, triple
 from equipoise.model.arrays import Floats, Vector3
 
 PERIOD = 0.25  # s, chosen: the step h, a fiftieth of a swing
@@ -42,15 +43,6 @@ def standing(before: Stand, sample: Sample) -> Stand:
     return Stand(sample.shift, before.since if still else sample.t)
 
 
-class Bounds(NamedTuple):
-    """The bounds within which a loop counts as quiet."""
-
-    tilt: float  # rad
-    rate: float  # rad/s
-    shift: float  # m
-    memory: float  # s, T of the means, and for how long all must stay within the bounds
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Rest:
     """The present means."""
@@ -73,15 +65,6 @@ def finest_bounds(plant: Hanging) -> Bounds:
     return bounds(plant, max(LEVEL, 2 * plant.step))
 
 
-def at_depth(bounds: Bounds, before: float, now: float) -> Bounds:
-    """Return the bounds for the same offset at another depth (m).
-
-    An offset tilts a platform that hangs at half the depth twice as far.
-    """
-    share = before / now
-    return bounds._replace(tilt=bounds.tilt * share, rate=bounds.rate * share**0.5)
-
-
 def settle(rest: Rest, sample: Sample, plant: Hanging, bounds: Bounds, *, level: bool) -> Rest:
     """Return the means after another step; ``level``: the platform should come to rest level.
 
@@ -91,21 +74,12 @@ def settle(rest: Rest, sample: Sample, plant: Hanging, bounds: Bounds, *, level:
     tilt, rate = tilt_of(plant, sample), rate_of(plant, sample)
     if not np.isfinite(rest.tilt[0]):
         return Rest(tilt, rate, sample.shift, sample.shift)
-    share = PERIOD / bounds.memory
-    mean = replace(
-        rest,
-        tilt=rest.tilt + share * (tilt - rest.tilt),
-        rate=rest.rate + share * (rate - rest.rate),
-        shift=rest.shift + share * (sample.shift - rest.shift),
-        before=rest.before + share * (rest.shift - rest.before),
-    )
-    off, turning = (mean.tilt, mean.rate) if level else (tilt - mean.tilt, rate - mean.rate)
-    still = (
-        float(np.linalg.norm(off)) <= bounds.tilt
-        and float(np.linalg.norm(turning)) <= bounds.rate
-        and float(np.linalg.norm(mean.shift - mean.before)) <= bounds.shift
-    )
-    return replace(mean, since=min(rest.since, sample.t) if still else np.inf)
+    means = np.concatenate([rest.tilt, rest.rate, rest.shift, rest.before])
+    now = (pair(tilt), pair(rate), triple(sample.shift))
+    follow_means(means, PERIOD / bounds.memory, *now)
+    still = is_still(means, now[0], now[1], bounds, level)
+    since = min(rest.since, sample.t) if still else np.inf
+    return Rest(means[:2], means[2:4], means[4:7], means[7:], since)
 
 
 def is_quiet(rest: Rest, t: float, bounds: Bounds) -> bool:

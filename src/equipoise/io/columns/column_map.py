@@ -66,6 +66,7 @@ class ColumnMap:
     lamp: Columns | None = None  # of its full power
     accelerometer: Columns | None = None
     sun: Columns | None = None  # a unit vector, of body axes to a lamp
+    position: Columns | None = None  # of P, laboratory: x, y, or three of the table's axes
     lab_up: str = "z"  # the laboratory axis of the table that points up
     body: tuple[str, str, str] = ("x", "y", "z")  # our body axes in terms of the table's
     inverse: bool = False  # the attitude turns laboratory into body components
@@ -86,6 +87,6 @@ class ColumnMap:
     def names(self) -> frozenset[str]:
         """Return every column that the map takes."""
         groups = (*self.sensed, self.momentum, self.torque, self.field, self.temperature, self.lamp,
-                  self.accelerometer, self.sun)  # fmt: skip
+                  self.accelerometer, self.sun, self.position)  # fmt: skip
         single = {each.column for each in (*self.masses, *self.devices)}
         return frozenset(single.union(*(each.names for each in groups if each is not None)))

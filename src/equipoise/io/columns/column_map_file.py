@@ -43,6 +43,9 @@ unit = "g0"                         # standard gravity
 [sun]
 columns = ["sx", "sy", "sz"]        # to the lamp, body axes
 unit = "1"
+[position]
+columns = ["px", "py", "pz"]        # of the centre of rotation on a planar table, laboratory axes
+unit = "mm"
 """
 
 from pathlib import Path
@@ -94,6 +97,13 @@ class TriadTable(Table):
     axes: Axes | None = None
     factor: Positive = 1.0
     offset: Annotated[Triple, BeforeValidator(_thrice)] = Field([0.0, 0.0, 0.0])
+
+
+class PositionTable(Table):
+    """Where the centre of rotation is, in the laboratory axes of the attitude."""
+
+    columns: Three
+    unit: str
 
 
 class MassTable(Table):
@@ -149,6 +159,7 @@ class MapFile(Table):
     lamp: LampTable | None = None
     accelerometer: TriadTable | None = None
     sun: TriadTable | None = None
+    position: PositionTable | None = None
 
 
 def read_column_map(path: str | Path) -> ColumnMap:
@@ -179,6 +190,7 @@ def column_map_of(table: MapFile, source: str) -> ColumnMap:
         lamp=None if table.lamp is None else Columns((table.lamp.column,)),
         accelerometer=_triad(table.accelerometer, "acceleration", f"{source}: accelerometer"),
         sun=_triad(table.sun, "share", f"{source}: sun"),
+        position=_position(table.position, f"{source}: position"),
         lab_up=table.lab_up,
         body=body,
         inverse=table.attitude is not None and table.attitude.turns == "laboratory to body",
@@ -203,6 +215,12 @@ def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
     axes = None if table.axes is None else checked_axes(table.axes, f"{where}.axes", kind != "rate")
     unit = factor(table.unit, kind, where) * table.factor
     return Columns(tuple(table.columns), unit, axes, tuple(table.offset))
+
+
+def _position(table: PositionTable | None, where: str) -> Columns | None:
+    if table is None:
+        return None
+    return Columns(tuple(table.columns), factor(table.unit, "length", where))
 
 
 def _device(table: DeviceTable, where: str) -> NamedColumn:

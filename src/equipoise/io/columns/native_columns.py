@@ -3,7 +3,7 @@
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_mm  h_x_N_m_s ...  torque_x_N_m ...
     wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  cage_<name>_uT  jet_<name>_N_m
     field_x_uT ...
-    temperature_degC  lamp_power  accel_x_m_s2 ...  sun_x ...
+    temperature_degC  lamp_power  accel_x_m_s2 ...  sun_x ...  position_x_mm position_y_mm
 
 One table for all channels; a cell is blank where its channel has no row at that time.
 """
@@ -31,6 +31,7 @@ TEMPERATURE = ("temperature_degC",)
 LAMP = ("lamp_power",)  # of its full power: 0 off, 1 on
 ACCELEROMETER = ("accel_x_m_s2", "accel_y_m_s2", "accel_z_m_s2")
 SUN = ("sun_x", "sun_y", "sun_z")  # of a unit vector
+POSITION = ("position_x_mm", "position_y_mm")  # of P on a planar table
 # Of a column map: the columns, and what one of their unit is in SI.
 GROUPS = {
     "quaternion": (ATTITUDE, 1.0),
@@ -42,11 +43,13 @@ GROUPS = {
     "lamp": (LAMP, 1.0),
     "accelerometer": (ACCELEROMETER, 1.0),
     "sun": (SUN, 1.0),
+    "position": (POSITION, MM),
 }
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
 OURS = re.compile(
-    r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|cage|jet|field|temperature|lamp|accel|sun)_.*"
+    r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|cage|jet|field|temperature|lamp|accel|sun"
+    r"|position)_.*"
 )
 NAMED = 5  # columns that a note names; chosen: a screen
 
@@ -107,6 +110,7 @@ def native_columns(recording: Recording) -> dict[str, Series1]:
         (recording.lamp, LAMP, 1.0),
         (recording.accelerometer, ACCELEROMETER, 1.0),
         (recording.sun, SUN, 1.0),
+        (recording.position, POSITION, 1 / MM),
     )
     present = [(c, names, unit) for c, names, unit in channels if c is not None and len(c)]
     if not present:

@@ -1,7 +1,7 @@
 """The columns of a recording as ``to_pandas`` names them: all in SI.
 
 time_s  attitude_w ...  rate_x_rad_s ...  masses_<name>_m  momentum_x_N_m_s ...
-torque_x_N_m ...  field_x_T ...  temperature_air_degC  lamp_power
+torque_x_N_m ...  field_x_T ...  temperature_air_degC  lamp_power  position_x_m position_y_m
 wheel:<name>_rad_s  gimbal:<name>_rad  dipole:<name>_A_m2  cage:<name>_T  jet:<name>_N_m
 """
 
@@ -21,6 +21,7 @@ GROUPS = {
     "lamp": ("lamp_power",),
     "accelerometer": tuple(f"accelerometer_{axis}_m_s2" for axis in "xyz"),
     "sun": tuple(f"sun_{axis}" for axis in "xyz"),
+    "position": tuple(f"position_{axis}_m" for axis in "xy"),
 }
 MASS = re.compile("masses_(.+)_m")
 DEVICE = re.compile("(?=wheel:.*_rad_s|gimbal:.*_rad|dipole:.*_A_m2|cage:.*_T|jet:.*_N_m)"

@@ -37,10 +37,11 @@ from equipoise.model.errors import InputError
 from equipoise.model.recording import INPUTS
 
 FIELD = ("field_x_T", "field_y_T", "field_z_T")
+POSITION = ("position_x_m", "position_y_m")
 LARGEST = 1e150  # chosen: its square is still a double; no sensor's number
 GROUPS = {"rate": RATE, "momentum": MOMENTUM, "torque": TORQUE, "field": FIELD,
           "temperature": TEMPERATURE, "lamp": LAMP, "accelerometer": ACCELEROMETER,
-          "sun": SUN}  # fmt: skip
+          "sun": SUN, "position": POSITION}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,6 +7,7 @@ Topics, all times in ns on the clock of the log (UTC of a real bench):
     /log        foxglove.Log: the sentence of each event, for people
     /events     JSON {"kind", "sentence", "data"}: the same events, for programs
     /rate /masses /momentum /torque /devices /field /temperature /lamp /accelerometer /sun
+    /position
                 JSON, one number for each name, the unit at its end: {"x_rad_s": 0.01, ...}
     /gravity_torque
                 JSON: what a controller is told to feed forward (``io.stream.gravity_message``)
@@ -44,6 +45,7 @@ LEVELS = {"interlock": "Error", "fault": "Warning"}  # how loud a kind of event 
 XYZ_UNITS = {"rate": "rad_s", "momentum": "N_m_s", "torque": "N_m", "field": "T"}
 AS_IN_TABLES = {
     "temperature": TEMPERATURE, "lamp": LAMP, "accelerometer": ACCELEROMETER, "sun": SUN,
+    "position": ("x_m", "y_m"),
 }  # fmt: skip
 
 

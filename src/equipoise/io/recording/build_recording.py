@@ -16,7 +16,14 @@ from equipoise.io.recording.attitude_columns import (
     of_unit_length,
     quaternions,
 )
-from equipoise.io.recording.channels import Channel, Rows, columns_of, in_body_axes, read_channel
+from equipoise.io.recording.channels import (
+    Channel,
+    Rows,
+    columns_of,
+    in_body_axes,
+    in_the_plane,
+    read_channel,
+)
 from equipoise.io.recording.clock import Clock, clock_of
 from equipoise.io.recording.rotation_columns import as_quaternions, blank_note, of_rotations
 from equipoise.io.recording.time_stamps import gap_notes, without_duplicates
@@ -79,7 +86,9 @@ def sound_rows(channel: Channel, source: Rows, columns: Columns) -> Sound:
     if not len(channel):
         return Sound(channel, tuple(faulty), blank)
     channel, twice = without_duplicates(channel, source.table)
-    if channel.name not in ("attitude", *SCALARS):
+    if channel.name == "position":
+        channel = in_the_plane(channel, source.columns.lab_up)
+    elif channel.name not in ("attitude", *SCALARS):
         channel = in_body_axes(channel, columns, source.columns.body)
     return Sound(channel, (*faulty, *twice), blank)
 

@@ -7,18 +7,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.io.columns.axis_permutation import axes_matrix
+from equipoise.io.columns.axis_permutation import TO_Z_UP, axes_matrix
 from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.row_faults import FaultyRows, RowFault
 from equipoise.io.columns.sentinels import sentinel_rows
 from equipoise.io.columns.table import BLANK, Numbers, Table
 from equipoise.io.toml.plausible import SIZES
+from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Bools, Floats, Ints, Series1
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import CHANNELS, Samples
 
 # Channels of readings that scatter; a setting may stand at 999 for long.
-SENSORS = frozenset({"attitude", "rate", "field", "accelerometer", "sun"})
+SENSORS = frozenset({"attitude", "rate", "field", "accelerometer", "sun", "position"})
 # In SI, of each channel: what no bench has.
 LARGEST = {
     "attitude": SIZES["number"],
@@ -32,6 +33,7 @@ LARGEST = {
     "lamp": SIZES["number"],
     "accelerometer": SIZES["acceleration"],
     "sun": SIZES["number"],
+    "position": SIZES["length"],
 }
 
 
@@ -178,6 +180,17 @@ def in_body_axes(channel: Channel, columns: Columns, body: tuple[str, str, str])
     if axes == ("x", "y", "z"):
         return channel  # verbatim: a product with one would be the same, but for -0.0
     return Channel(channel.name, channel.t, channel.values @ axes_matrix(axes).T, channel.rows)
+
+
+def in_the_plane(channel: Channel, lab_up: str) -> Channel:
+    """Return a position's x and y in our laboratory axes, whose z points up.
+
+    Three columns are the table's own axes, of which ``lab_up`` points up; two are ours already.
+    """
+    if channel.values.shape[1] == 2:
+        return channel
+    values = channel.values @ to_matrix(np.array(TO_Z_UP[lab_up])).T
+    return Channel(channel.name, channel.t, values[:, :2], channel.rows)
 
 
 def may_have_sentinels(name: str, columns: ColumnMap) -> bool:

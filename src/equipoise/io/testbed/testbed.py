@@ -13,6 +13,7 @@ from equipoise.io.testbed.hardware import (
     check_moved_masses,
 )
 from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
+from equipoise.io.testbed.table_top import Position, TableTop, check_table
 from equipoise.io.testbed.true_surroundings import check_true_lamp, check_true_rows
 from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
 from equipoise.io.testbed.vector_sensors import Accelerometer, Magnetometer, Sun
@@ -93,6 +94,7 @@ class Sensors(Table):
     sun: Sun | None = None
     magnetometer: Magnetometer | None = None
     temperature: Annotated[devices.Thermometer | None, Holds("thermometer")] = None
+    position: Position | None = None
 
 
 class Disturbance(Table):
@@ -118,6 +120,7 @@ class TestbedFile(RecordTable):
     weight: Annotated[list[Weight], Holds("weights")] = Field([])
     weight_grid: Annotated[list[WeightGrid], Holds("grids")] = Field([])
     lamp: devices.Lamp | None = None
+    table: TableTop | None = None
     sensor: Annotated[Sensors, Holds(ITSELF)] = Sensors()
     disturbance: Annotated[Disturbance, Holds(ITSELF)] = Disturbance()
     hardware: Hardware | None = None
@@ -161,6 +164,8 @@ def _check(file: TestbedFile, source: str) -> None:
     check_weights(file.weight, file.weight_grid, source)
     _check_field(file, source)
     _check_sun(file, source)
+    is_true = file.truth is not None and file.truth.table is not None
+    check_table(file.table, file.sensor.position, is_true, source)
     _check_assumed(file, source)
     if file.truth is not None:
         check_true_drives(file.truth, masses, f"{source}: truth")

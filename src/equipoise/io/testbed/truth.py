@@ -8,6 +8,7 @@ from pydantic import Field
 
 from equipoise.io.testbed.inertia_check import check_inertia
 from equipoise.io.testbed.platform import Platform
+from equipoise.io.testbed.table_top import TrueTable
 from equipoise.io.testbed.true_modes import TrueMode
 from equipoise.io.testbed.true_surroundings import TrueCoilPair, TrueLamp
 from equipoise.io.toml.key_types import (
@@ -189,6 +190,7 @@ class Truth(RecordTable):
     coil_pair: Annotated[list[TrueCoilPair], Holds("cage")] = Field([])
     lamp: TrueLamp | None = None
     mode: Annotated[list[TrueMode], Holds("modes")] = Field([])
+    table: TrueTable | None = None
 
     @classmethod
     def more_keys(cls, record: Any) -> Mapping[str, Any]:

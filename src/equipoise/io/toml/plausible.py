@@ -31,7 +31,8 @@ SIZES = {
     "number": 1e9,  # of what has no unit
 }
 OF_UNIT = {unit: kind for kind, units in KINDS.items() for unit in units} | {
-    "kg": "mass", "g": "mass", "mg": "mass", "kg m2": "inertia", "N m s2": "drag", "m/s": "speed",
+    "kg": "mass", "g": "mass", "mg": "mass", "kg m2": "inertia", "N m s2": "drag", "N s/m": "drag",
+    "m/s": "speed",
     "cm/s": "speed", "mm/s": "speed", "um/min": "speed", "deg/s per root Hz": "rate",
     "Hz": "frequency", "kHz": "frequency", "percent": "share", "K": "temperature",
     "um/K": "length",

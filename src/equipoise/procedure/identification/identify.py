@@ -9,8 +9,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from equipoise.assessment.plausibility.estimated_body import with_plausibility
-from equipoise.estimation.method_contract import Options, estimated, heeded
+from equipoise.estimation.method_contract import Method, Options, estimated, heeded
 from equipoise.estimation.methods.registry import METHODS
+from equipoise.estimation.planar import planar_estimate
 from equipoise.estimation.search_budget import UNLIMITED, Budget
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.reasons.step_reasons import StepReason
@@ -52,13 +53,20 @@ def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -
     end = recording.span[1]
     yield measurement_step(end, recording, StepReason.RECORDING_READ)
     recording, testbed = sound(recording, testbed)
-    chosen = COARSE_TO_FINE if options.method == "auto" else (options.method,)
-    for name in chosen:
-        method = METHODS[name]
-        requested = (
-            options.requested if name == chosen[-1] else heeded(method.card, options.requested)
-        )
+    chosen = methods_for(recording, testbed, options.method)
+    for method in chosen:
+        is_last = method is chosen[-1]
+        requested = options.requested if is_last else heeded(method.card, options.requested)
         found = estimated(method, recording, testbed, requested)
         estimate = with_plausibility(found, recording, testbed)
-        if estimate.parameters or name == chosen[-1]:
+        if estimate.parameters or is_last:
             yield estimate_step(recording.span[1], estimate)
+
+
+def methods_for(recording: Recording, testbed: Testbed, name: str) -> tuple[Method, ...]:
+    """Return the methods to take, the one that counts last; of a moving bearing the planar fit."""
+    if name != "auto":
+        return (METHODS[name],)
+    if planar_estimate.moves_over_table(recording, testbed):
+        return (planar_estimate.METHOD,)
+    return tuple(METHODS[each] for each in COARSE_TO_FINE)

@@ -16,6 +16,7 @@ import numpy as np
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation.methods.tracker import com_course, rate_course
 from equipoise.estimation.output_error.predict import before, predict
+from equipoise.estimation.planar.friction_field import FrictionField, friction_field
 from equipoise.estimation.tracker import tracker
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.estimate import ATTITUDE, COM, INERTIA, RATE, Course, Estimate
@@ -25,7 +26,7 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.fitted_motion import FittedMotion, fitted_motion
 
-TRACKER = "tracker"
+TRACKER, PLANAR = "tracker", "planar"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,6 +54,7 @@ class RecordCourses:
 
     fit: FitMotions | None = None
     tracked: TrackedCourses | None = None
+    table: FrictionField | None = None
 
 
 def identification_courses(
@@ -62,6 +64,8 @@ def identification_courses(
     estimate = steps[-1].estimate
     if estimate is None:
         return RecordCourses()
+    if (table := friction_field(recording, testbed, estimate)) is not None:
+        return RecordCourses(table=table)
     if estimate.method != TRACKER:
         return RecordCourses(fit_motions(recording, testbed, estimate))
     if estimate.course is None or estimate.rate_course is None:
@@ -95,7 +99,8 @@ def fit_motions(recording: Recording, testbed: Testbed, estimate: Estimate) -> F
 def predicts_motion(estimate: Estimate | None) -> TypeGuard[Estimate]:
     """Say whether an estimate holds the initial state, so that the model can be run along it."""
     names = (*COM, *INERTIA, *RATE, *ATTITUDE)
-    return estimate is not None and all(map(estimate.has, names)) and estimate.method != TRACKER
+    own = (TRACKER, PLANAR)  # of which the motion is another's
+    return estimate is not None and all(map(estimate.has, names)) and estimate.method not in own
 
 
 def has_attitude(recording: Recording | None) -> TypeGuard[Recording]:

@@ -1,0 +1,1 @@
+"""The files of a generated program, as text."""

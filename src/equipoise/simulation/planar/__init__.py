@@ -1,0 +1,1 @@
+"""A bench made of equations whose bearing floats over a flat table."""
