@@ -7,7 +7,7 @@ from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import METHOD
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.modes import Mode, freed
-from equipoise.model.reasons.estimate_reasons import EstimateReason
+from equipoise.model.reasons.mode_reasons import ModeReason
 from tests.support import modal_records
 from tests.support.modal_records import modal_record
 
@@ -22,7 +22,7 @@ def found():
 
 def test_the_mode_is_reported_with_its_numbers(found):
     true = freed(MODE, modal_records.INERTIA)
-    assert [r.code for r in found.outcome.reasons].count(EstimateReason.MODE_FOUND) == 1
+    assert [r.code for r in found.outcome.reasons].count(ModeReason.MODE_FOUND) == 1
     for name, value in (("mode_1_frequency", true.frequency), ("mode_1_damping", true.damping)):
         p = found.parameters[found.index(name)]
         assert abs(p.value - value) < 4 * p.sd

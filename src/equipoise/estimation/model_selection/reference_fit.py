@@ -38,6 +38,7 @@ from equipoise.estimation.model_selection.survey_reasons import (
     term_reasons,
     walk_reasons,
 )
+from equipoise.estimation.modes.hanging_mass import with_hanging
 from equipoise.estimation.modes.modal_estimate import mode_reasons, with_modal_numbers
 from equipoise.estimation.modes.modal_search import settled_modes, with_modes
 from equipoise.estimation.motion.unresolved_rates import without_unresolved_rates
@@ -252,7 +253,7 @@ def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Esti
     The latter where the search was finished: it takes long, and is not needed.
     """
     concluded = with_rivals(with_response(with_moments(concluded, model), model), model)
-    concluded = with_modal_numbers(concluded, model)
+    concluded = with_hanging(with_modal_numbers(concluded, model), model, params.terms)
     concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
     residual = concluded.residual if model.unfinished else held_out(model, concluded.residual)

@@ -29,7 +29,7 @@ from equipoise.estimation.output_error.trajectory import METHOD
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.modes import FreeMode
-from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.mode_reasons import ModeReason
 from equipoise.model.reasons.reason import Reason
 
 NUMBERS = (("frequency", "Hz"), ("damping", "-"), ("coupling_x", "kg^0.5 m"),
@@ -97,6 +97,6 @@ def with_modal_numbers(concluded: Estimate, model: RecordModel) -> Estimate:
 def mode_reasons(model: RecordModel) -> list[Reason]:
     """Return which modes the model includes."""
     return [
-        Reason(Why.MODE_FOUND, (), {"frequency": m.frequency, "damping": m.damping})
+        Reason(ModeReason.MODE_FOUND, (), {"frequency": m.frequency, "damping": m.damping})
         for m in model.modes
     ]

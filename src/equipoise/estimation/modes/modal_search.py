@@ -8,9 +8,11 @@ Cannot see a mode so weak that its line drowns: by the height of the line, 2 x* 
 of amplitude A in n rows of noise s being seen from n A^2 / (2 s^2) = 45 on where it does not decay.
 """
 
-from equipoise.estimation.events.record_model import RecordModel
-from equipoise.estimation.modes.modal_fit import fit_modes
-from equipoise.estimation.modes.mode_guess import guessed
+from dataclasses import replace
+
+from equipoise.estimation.events.record_model import RecordModel, refitted
+from equipoise.estimation.modes.modal_fit import agreed, fit_modes
+from equipoise.estimation.modes.mode_guess import guesses
 from equipoise.estimation.modes.residual_line import residual_line
 from equipoise.estimation.output_error.solution import cost_of
 from equipoise.estimation.search_budget import Stage
@@ -23,7 +25,8 @@ def another(model: RecordModel) -> RecordModel:
     line = residual_line(model.fitted)
     if line is None or not line.is_sure:
         return model
-    found = fit_modes(model, [*model.modes, guessed(model, line)]).model
+    fits = [fit_modes(model, [*model.modes, guess]) for guess in guesses(model, line)]
+    found = min(fits, key=lambda fit: fit.chi_square).model
     gained = 2.0 * (cost_of(model.fitted) - cost_of(found.fitted))
     return found if gained > 2.0 * line.threshold else model
 
@@ -41,6 +44,26 @@ def with_modes(model: RecordModel) -> RecordModel:
     return model
 
 
+def without_mode(model: RecordModel, k: int) -> RecordModel:
+    """Return the model fitted without one of its modes, the others as they were."""
+    left = (*model.modes[:k], *model.modes[k + 1 :])
+    if left:
+        return agreed(model, left)
+    return refitted(replace(model, modes=(), params=replace(model.params, modal=None)))
+
+
+def earned(model: RecordModel) -> RecordModel:
+    """Return the model without modes that terms and events found since have made needless."""
+    line = residual_line(model.fitted)
+    for k in reversed(range(len(model.modes))):
+        less = without_mode(model, k)
+        lost = 2.0 * (cost_of(less.fitted) - cost_of(model.fitted))
+        if line is not None and less.fitted.converged and lost < 2.0 * line.threshold:
+            model = less
+    return model
+
+
 def settled_modes(model: RecordModel) -> RecordModel:
     """Return the model with its modes at their optimum, all else as it was found since."""
+    model = earned(model)
     return fit_modes(model, model.modes).model if model.modes else model

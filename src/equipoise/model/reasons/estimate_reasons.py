@@ -82,7 +82,6 @@ class EstimateReason(Code):
         "The gyro noise is {found:deg .2g} deg/s per sample; stated are {stated:deg .2g}.",
     )
     TERMS_ADDED = "terms_added", "Terms that the record supports were added: {names}."
-    MODE_FOUND = "mode_found", "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}."
     TERMS_CARRIED = (
         "terms_carried",
         "Intervals account for sensor errors that may be zero: {names}.",
