@@ -60,21 +60,22 @@ def wheel(rng: np.random.Generator, platform: oracle.Platform) -> Part:
 
 
 def pendulum(rng: np.random.Generator, platform: oracle.Platform) -> Part:
-    """Return a bob of 0.02 % of the platform's mass that swings at 0.8 to 2 Hz: some cubic
-    centimetres that slosh. As elastic sag it raises com by m g / (W^2 M), 80 um at most: a bob of
-    1 % would turn the platform over.
+    """Return a bob that swings at 1.5 to 4 Hz: some cubic centimetres that slosh.
 
-    Its spring is soft: most of what draws it back is gravity.
+    As elastic sag it raises com by m g / (W^2 M), by 3 to 25 % of how deep that is: a heavier bob
+    would turn the platform over. Its spring is soft where the arm is long enough for gravity alone.
     """
     heading = rng.uniform(0, 2 * np.pi)
     axis = np.array([np.cos(heading), np.sin(heading), 0.0])
-    W, z = 2 * np.pi * rng.uniform(0.8, 2.0), rng.uniform(0.002, 0.02)
-    arm = 9.81 / (0.9 * W**2) * DOWN
-    mass = 2e-4 * platform.mass
+    W, z = 2 * np.pi * rng.uniform(1.5, 4.0), rng.uniform(0.002, 0.02)
+    sag = rng.uniform(0.03, 0.25) * -float(platform.com[2])
+    arm = min(0.1, platform.gravity / (0.9 * W**2)) * DOWN
+    mass = sag * platform.mass * W**2 / platform.gravity
     moment = mass * float(arm @ arm) + LITTLE
     hinge = np.array([*rng.uniform(-0.1, 0.1, 2), rng.uniform(0.1, 0.2)]) - 0.5 * arm
-    return Part(mass, hinge, axis, arm, LITTLE * np.eye(3), 0.1 * moment * W**2,
-                2 * z * moment * W, 0.0)  # fmt: skip
+    spring = moment * W**2 - mass * platform.gravity * float(np.linalg.norm(arm))
+    return Part(mass, hinge, axis, arm, LITTLE * np.eye(3), spring, 2 * z * moment * W,
+                rng.uniform(-0.1, 0.1))  # fmt: skip
 
 
 def mode_of(part: Part, platform: oracle.Platform) -> FreeMode:
