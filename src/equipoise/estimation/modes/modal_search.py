@@ -17,6 +17,7 @@ from equipoise.estimation.modes.residual_line import residual_line
 from equipoise.estimation.output_error.solution import cost_of
 from equipoise.estimation.search_budget import Stage
 
+NEAR = 0.2  # of a line's frequency, chosen: a mode that ends elsewhere explains something else
 MOST = 2  # modes, chosen: a third is noise that has a colour
 
 
@@ -28,7 +29,8 @@ def another(model: RecordModel) -> RecordModel:
     fits = [fit_modes(model, [*model.modes, guess]) for guess in guesses(model, line)]
     found = min(fits, key=lambda fit: fit.chi_square).model
     gained = 2.0 * (cost_of(model.fitted) - cost_of(found.fitted))
-    return found if gained > 2.0 * line.threshold else model
+    stayed = abs(found.modes[-1].frequency / line.frequency - 1.0) < NEAR
+    return found if stayed and gained > 2.0 * line.threshold else model
 
 
 def with_modes(model: RecordModel) -> RecordModel:
