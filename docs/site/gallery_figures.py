@@ -7,7 +7,8 @@ from equipoise.app.figures.catalogue import Picture, of_fit, of_move
 from equipoise.app.figures.design_catalogue import pictures_of as pictures_of_design
 from equipoise.app.figures.estimate import inertia_ellipsoid, intervals
 from equipoise.app.runs.demonstration import measured
-from equipoise.app.views import assess_views, balance_views
+from equipoise.app.views import assess_views
+from equipoise.app.views.balancing import balance_views
 from equipoise.estimation.regression.formulations.rows import body_with
 from equipoise.procedure.identification.record_courses import (
     balancing_courses,

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from equipoise.app.api.files import preset, read_recording, read_testbed, write_recording
     from equipoise.app.api.identify import identify
     from equipoise.app.api.inertia import inertia
+    from equipoise.app.api.keep import keep
     from equipoise.app.api.ledger import ledger
     from equipoise.app.api.observe import observe
     from equipoise.app.api.open_bench import open_bench
@@ -67,6 +68,7 @@ __all__ = [
     "feed_forward",
     "identify",
     "inertia",
+    "keep",
     "laws",
     "ledger",
     "methods",

@@ -18,9 +18,10 @@ from tests.oracle.mujoco_bench import Platform, angle_between, matrix, product, 
 from tests.oracle.mujoco_live import STEP, MujocoBench
 
 Array = NDArray[np.float64]
-BEAT = 10  # steps, chosen: the controller runs at 50 Hz
+BEAT = 20  # steps, chosen: the controller runs at 25 Hz
 STIFF, DAMPED = 1.0, 0.8  # rad/s, -, chosen: a pointing loop of a nanosatellite
 OWN_NOISE = np.deg2rad(0.005), np.deg2rad(0.01)  # rad, rad/s: of the experiment's own sensors
+AHEAD = 0.01  # s, over which the wanted rate is taken
 LEAN, EACH, SLEW = np.deg2rad(8.0), 60.0, 20.0  # rad, s, s: it points elsewhere each minute
 
 
@@ -121,10 +122,10 @@ class ExperimentBench(MujocoBench):
         rate = w + OWN_NOISE[1] * self._own.normal(size=3)
         turn = product(observed * np.array([1.0, -1.0, -1.0, -1.0]), wanted)
         e = 2.0 * np.sign(turn[0]) * turn[1:]
-        ahead = product(wanted * np.array([1.0, -1.0, -1.0, -1.0]), self._wanted(t + 0.01))
-        asked = 2.0 * ahead[1:] / 0.01  # rad/s, of the reference
+        ahead = product(wanted * np.array([1.0, -1.0, -1.0, -1.0]), self._wanted(t + AHEAD))
+        turning = 2.0 * ahead[1:] / AHEAD  # rad/s, of the reference
         J = self._platform.inertia_P
-        u = J @ (STIFF**2 * e + 2 * DAMPED * STIFF * (asked - rate))
+        u = J @ (STIFF**2 * e + 2 * DAMPED * STIFF * (turning - rate))
         axes = np.array([wheel.axis for wheel in self.testbed.wheels])
         drive = -np.linalg.lstsq(axes.T, u, rcond=None)[0]
         for k, wheel in enumerate(self.testbed.wheels):

@@ -21,11 +21,11 @@ BEGIN, END = "<!-- rooms: written by `make rooms` -->", "<!-- end of rooms -->"
 # in rows; a room that stands nowhere is an error.
 PLACES = {
     "app": (0, 0, 12, 3), "study": (0, 3, 4, 2), "procedure": (4, 3, 5, 2),
-    "planning": (0, 5, 4, 2), "simulation": (4, 5, 3, 2), "onboard": (7, 5, 2, 2),
-    "estimation": (0, 7, 5, 4),
-    "control": (5, 7, 2, 4), "assessment": (7, 7, 2, 4), "dynamics": (0, 11, 9, 1),
-    "sensors": (0, 12, 4, 2), "actuators": (4, 12, 5, 2), "io": (9, 3, 3, 6),
-    "hardware": (9, 9, 3, 5), "maths": (0, 14, 12, 2), "model": (0, 16, 12, 2),
+    "planning": (0, 5, 4, 3), "simulation": (4, 5, 3, 3), "onboard": (7, 5, 2, 3),
+    "estimation": (0, 8, 5, 5),
+    "control": (5, 8, 2, 5), "assessment": (7, 8, 2, 5), "dynamics": (0, 13, 9, 2),
+    "sensors": (0, 15, 4, 2), "actuators": (4, 15, 5, 2), "io": (9, 3, 3, 7),
+    "hardware": (9, 10, 3, 7), "maths": (0, 17, 12, 2), "model": (0, 19, 12, 2),
 }  # fmt: skip
 CELL, ROW, GAP, MARGIN = 84, 40, 12, 14  # px
 LINE, SMALL, LARGE, COLUMN, LETTER = 15, 11, 14, 165, 6.5  # px

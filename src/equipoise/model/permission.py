@@ -12,4 +12,4 @@ class Permission(StrEnum):
     DONE = "done"  # the experiment is over
 
 
-Experiment = Callable[[], Permission]  # called between two measurements; it never waits
+Experiment = Callable[[], str]  # a permission; called between two measurements, it never waits

@@ -5,8 +5,8 @@ import pytest
 
 from equipoise.app.runs.balancing import Balancing
 from equipoise.app.runs.demonstration import GOAL, measured
-from equipoise.app.runs.identification import Identification
-from equipoise.app.views.balance_views import pictures_of, pictures_of_tracking
+from equipoise.app.runs.recordings.identification import Identification
+from equipoise.app.views.balancing.balance_views import pictures_of, pictures_of_tracking
 from equipoise.app.views.identify_views import record_of
 from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset

@@ -106,7 +106,7 @@ def test_a_long_way_is_gone_without_a_pause_between_legs(kind, turn):
 
 
 @every_board
-def test_a_mass_creeps_when_it_is_asked_to(kind):
+def test_a_mass_creeps_when_a_way_is_slow(kind):
     """60 um at 20 um/s take 3 s at least, and never is it a leg further than that."""
     wire = Wire(kind).at_home()
     begun = wire.t

@@ -12,7 +12,7 @@ HOST = "127.0.0.1"
 
 
 @contextlib.contextmanager
-def asking():
+def experiment():
     with ExperimentPort(HOST, 0) as port, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
         own.settimeout(5.0)
         own.connect(port.address)
@@ -26,7 +26,7 @@ def asking():
 
 
 def test_each_word_holds_until_the_next_and_is_answered():
-    with asking() as (port, _, says):
+    with experiment() as (port, _, says):
         assert port() == "free"
         assert says(b"hold\n") == ("hold", "ok hold")
         assert port() == "hold"
@@ -36,8 +36,8 @@ def test_each_word_holds_until_the_next_and_is_answered():
 
 
 @pytest.mark.parametrize("data", [b"stop", b"", b"\xff\x00\xfe", b"h" * 500, b"hold free"])
-def test_what_is_no_word_changes_nothing_and_is_told_so(data):
-    with asking() as (_, _, says):
+def test_what_is_no_word_changes_nothing_and_is_refused(data):
+    with experiment() as (_, _, says):
         says(b"hold")
         state, answer = says(data)
         assert state == "hold"
@@ -48,7 +48,7 @@ def test_what_is_no_word_changes_nothing_and_is_told_so(data):
 
 def test_a_flood_delays_no_bench():
     """So many are read between two measurements; the rest waits, and the last word counts then."""
-    with asking() as (port, own, _):
+    with experiment() as (port, own, _):
         for _ in range(AT_ONCE):
             own.send(b"hold")
         own.send(b"free")
@@ -56,7 +56,7 @@ def test_a_flood_delays_no_bench():
         assert port() == "free"
 
 
-def test_who_asks_and_leaves_ends_nothing():
+def test_who_leaves_before_the_answer_ends_nothing():
     with ExperimentPort(HOST, 0) as port:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
             own.sendto(b"hold", port.address)

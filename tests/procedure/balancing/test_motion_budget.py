@@ -53,7 +53,7 @@ def test_the_slowest_of_all_ways_is_what_a_slowed_testbed_has():
     assert {mass.speed for mass in slowed(BED, budget).masses} == {least}
 
 
-def test_on_the_way_each_mass_goes_as_far_as_it_can():
+def test_on_the_way_each_mass_goes_until_it_arrives():
     """5 s at 2 um/s: 10 um of 100, and the mass that needs less is there."""
     slow = slowed(BED, MotionBudget(np.inf))
     slow = replace(slow, masses=tuple(replace(m, speed=2e-6) for m in slow.masses))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from equipoise.model.permission import Permission
+from equipoise.model.errors import InputError
 from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.procedure.balancing.schedule import Schedule
 
@@ -21,6 +21,11 @@ QUIET = ((10.0, 20.0), (30.0, 31.0))
     ],
 )
 def test_what_masses_may_do(said, t, may, why):
-    permission, reasons = Schedule(lambda: Permission(said), QUIET).at(t)
+    permission, reasons = Schedule(lambda: said, QUIET).at(t)
     assert permission == may
     assert [reason.code for reason in reasons] == [why]
+
+
+def test_a_word_that_states_nothing_is_refused():
+    with pytest.raises(InputError, match=r"experiment: found 'go'; wanted free, hold, done"):
+        Schedule(lambda: "go").at(0.0)

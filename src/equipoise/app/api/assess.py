@@ -5,8 +5,8 @@ from collections.abc import Callable, Sequence
 
 from equipoise.app.arguments import checks, inputs
 from equipoise.app.arguments.options import BUDGET_S
-from equipoise.app.runs import assessment
-from equipoise.app.runs.assessment import AssessedPlatform, Recordings
+from equipoise.app.runs.recordings import assessment
+from equipoise.app.runs.recordings.assessment import AssessedPlatform, Recordings
 from equipoise.app.runs.waiting import passing_on
 from equipoise.model.step import Step
 from equipoise.procedure.identification.assess import AssessOptions

@@ -6,10 +6,10 @@ from typing import overload
 
 from equipoise.app.arguments import inputs
 from equipoise.app.arguments.options import BUDGET_S
-from equipoise.app.runs import identification, joint_identification
-from equipoise.app.runs.identification import Identification
-from equipoise.app.runs.joint_identification import JointIdentification
-from equipoise.app.runs.plausible_record import Gate
+from equipoise.app.runs.recordings import identification, joint_identification
+from equipoise.app.runs.recordings.identification import Identification
+from equipoise.app.runs.recordings.joint_identification import JointIdentification
+from equipoise.app.runs.recordings.plausible_record import Gate
 from equipoise.app.runs.waiting import passing_on
 from equipoise.model.errors import InputError
 from equipoise.model.step import Step

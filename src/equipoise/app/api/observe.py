@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from equipoise.app.arguments import inputs
 from equipoise.app.arguments.options import BUDGET_S
-from equipoise.app.runs import observation
-from equipoise.app.runs.observation import Observation
+from equipoise.app.runs.recordings import observation
+from equipoise.app.runs.recordings.observation import Observation
 
 
 def observe(

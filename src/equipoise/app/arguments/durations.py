@@ -23,19 +23,19 @@ def duration_from(option: str, text: str) -> float:
 
 
 def quiet_times(
-    option: str, texts: Sequence[str], begun: datetime
+    option: str, texts: Sequence[str], start: datetime
 ) -> tuple[tuple[float, float], ...]:
-    """Return quiet times of each day, in s since ``begun``, from the day before it on.
+    """Return quiet times of each day, in s since ``start``, from the day before it on.
 
     Local time; one that ends before it begins goes on past midnight.
     """
-    midnight = begun.replace(hour=0, minute=0, second=0, microsecond=0)
+    midnight = start.replace(hour=0, minute=0, second=0, microsecond=0)
     found: list[tuple[float, float]] = []
     for text in texts:
         begin, end = _of_day(option, text)
         length = (end - begin) % timedelta(days=1)
         for day in range(-1, DAYS):
-            first = (midnight + timedelta(days=day) + begin - begun).total_seconds()
+            first = (midnight + timedelta(days=day) + begin - start).total_seconds()
             found.append((first, first + length.total_seconds()))
     return tuple(sorted(found))
 

@@ -75,7 +75,7 @@ def assess(
     earlier = None if before is None else fitting_recording_of(before, reading.whole, bed)
     with busy("assessing", announce=False):
         from equipoise.app.logbook.output import hand_over
-        from equipoise.app.runs.assessment import Recordings, run
+        from equipoise.app.runs.recordings.assessment import Recordings, run
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL, budget_at_terminal
         from equipoise.app.views.assess_views import output_of
         from equipoise.procedure.identification.assess import AssessOptions

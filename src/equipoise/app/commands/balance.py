@@ -118,7 +118,7 @@ def balance(
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.balancing import Goal, Limits
         from equipoise.app.runs.terminal_waiting import budget_at_terminal
-        from equipoise.app.views.balance_views import output_of
+        from equipoise.app.views.balancing.balance_views import output_of
         from equipoise.procedure.balancing.catalogue import CARDS
 
         budget = budget_at_terminal(searching)
@@ -169,7 +169,7 @@ def _series(
     from equipoise.app.engine.spread import spread_over
     from equipoise.app.logbook.output import hand_over_run
     from equipoise.app.runs.balance_series import run_series
-    from equipoise.app.views.balance_series_views import output_of
+    from equipoise.app.views.balancing.balance_series_views import output_of
 
     with engine() as pool:
         spread = spread_over(pool, partial(counted_pieces, f"balancing {seeds[0]} runs"))

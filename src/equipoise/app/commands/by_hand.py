@@ -145,7 +145,7 @@ def filed_session(requested: Request, path: Path, bed: "Testbed", rounds: int) -
 def _code(done: "ByHand", of: dict[str, str], requested: Request) -> int:
     """Hand the result over, keep it once the verdict is there, and return the exit code."""
     from equipoise.app.logbook.output import hand_over, keep
-    from equipoise.app.views.manual_views import output_of
+    from equipoise.app.views.balancing.manual_views import output_of
 
     output = output_of(done, of)
     hand_over(output, requested.json, requested.out, below=True)

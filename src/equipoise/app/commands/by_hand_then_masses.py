@@ -115,7 +115,7 @@ def _a_persons(
 def _code(done: "InTwoLevels", of: dict[str, str], requested: Request) -> int:
     """Hand the result over, keep it once the verdict is there, and return the exit code."""
     from equipoise.app.logbook.output import hand_over, keep
-    from equipoise.app.views.joint_views import output_of
+    from equipoise.app.views.balancing.joint_views import output_of
 
     output = output_of(done, of)
     hand_over(output, requested.json, requested.out, below=True)

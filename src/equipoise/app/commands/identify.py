@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from equipoise.app.engine.pool import Engine
-    from equipoise.app.runs.plausible_record import Gate
+    from equipoise.app.runs.recordings.plausible_record import Gate
     from equipoise.model.manoeuvre import Plan
     from equipoise.model.recording import Recording
     from equipoise.model.testbed import Testbed
@@ -93,7 +93,7 @@ def identify(
     recordings = [fitting_recording_of(each, reading, bed) for each in (file, *more)]
     planned = None if plan is None else plan_from(plan, bed)
     with busy("identifying", announce=False):
-        from equipoise.app.runs.plausible_record import Gate
+        from equipoise.app.runs.recordings.plausible_record import Gate
         from equipoise.app.runs.terminal_waiting import budget_at_terminal
         from equipoise.estimation.methods.registry import METHODS
         from equipoise.procedure.identification.identify import IdentifyOptions
@@ -120,8 +120,8 @@ def _from_one(
     """Identify from one recording."""
     with busy("identifying", announce=False):
         from equipoise.app.logbook.output import hand_over_run
-        from equipoise.app.runs.identification import run
-        from equipoise.app.runs.plausible_record import Gate
+        from equipoise.app.runs.recordings.identification import run
+        from equipoise.app.runs.recordings.plausible_record import Gate
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.views.identify_views import output_of
 
@@ -144,7 +144,7 @@ def _jointly(
     """Identify from several recordings of one platform."""
     with busy("identifying", announce=False):
         from equipoise.app.logbook.output import hand_over_run
-        from equipoise.app.runs.joint_identification import run
+        from equipoise.app.runs.recordings.joint_identification import run
         from equipoise.app.runs.terminal_waiting import at_terminal_by
         from equipoise.app.views.identify_runs_views import output_of
 

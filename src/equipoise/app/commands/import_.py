@@ -9,7 +9,7 @@ from equipoise.app.console.terminal import announced, busy, show_paths
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
-    from equipoise.app.runs.importing import Imported
+    from equipoise.app.runs.recordings.importing import Imported
     from equipoise.app.views.import_views import TableRead
     from equipoise.assessment.hypotheses.inertial_unit import InertialUnit
     from equipoise.assessment.hypotheses.ranking import TableReading
@@ -51,7 +51,7 @@ def import_(
         Recording to write: .csv, .parquet, .mcap or .mat.
     """
     from equipoise.app.arguments.inputs import read_options, testbed_from
-    from equipoise.app.runs.importing import imported
+    from equipoise.app.runs.recordings.importing import imported
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.format_registry import format_to_write
 
@@ -85,7 +85,7 @@ class Wanted:
 
 def _read(found: "Imported", choose: int | None, bed: "Testbed | None", wanted: Wanted) -> int:
     """Show the readings, and read the table by the one that is taken."""
-    from equipoise.app.runs.importing import axis_up, by_motion, check_vertical
+    from equipoise.app.runs.recordings.importing import axis_up, by_motion, check_vertical
     from equipoise.app.views.import_views import TableRead, unchecked
     from equipoise.assessment.plausibility.unread_inputs import unread_findings
     from equipoise.io.recording.frame_check import check_frame
@@ -118,7 +118,7 @@ def _read(found: "Imported", choose: int | None, bed: "Testbed | None", wanted: 
 
 def _left_open(found: "Imported", wanted: Wanted) -> int:
     """Show readings between which a person has to choose, or a map to start from."""
-    from equipoise.app.runs.importing import map_to_start_from
+    from equipoise.app.runs.recordings.importing import map_to_start_from
     from equipoise.app.views.import_views import TableRead
     from equipoise.io.files.atomic_file import write_whole
 

@@ -99,7 +99,7 @@ def keep(
         from equipoise.app.logbook.run_folder import own_folder
         from equipoise.app.report.write import write_output
         from equipoise.app.runs.keeping import Session, interrupted
-        from equipoise.app.views.keep_views import output_of
+        from equipoise.app.views.balancing.keep_views import output_of
 
         options = _options(lasts, target_um, tolerance_um, experiment, held)
         listener = _listener(experiment, held)

@@ -35,7 +35,7 @@ def laws(
     from equipoise.app.arguments.checks import vector
     from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.logbook.output import print_result
-    from equipoise.app.views.prospect_views import blocks, document
+    from equipoise.app.views.balancing.prospect_views import blocks, document
     from equipoise.model.units import UM
     from equipoise.procedure.balancing.catalogue import CARDS
     from equipoise.procedure.balancing.prospect import prospect

@@ -53,9 +53,9 @@ def ledger(
     recording = fitting_recording_of(file, reading, bed)
     with busy("identifying", announce=False):
         from equipoise.app.logbook.output import hand_over
-        from equipoise.app.runs.plausible_record import Gate
+        from equipoise.app.runs.recordings.plausible_record import Gate
+        from equipoise.app.runs.recordings.torque_attribution import run
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL, budget_at_terminal
-        from equipoise.app.runs.torque_attribution import run
         from equipoise.app.views.torque_views import output_of
         from equipoise.procedure.identification.identify import IdentifyOptions
 

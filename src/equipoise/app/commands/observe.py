@@ -47,7 +47,7 @@ def observe(
     check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
     with busy("following the motion"):
-        from equipoise.app.runs.observation import run
+        from equipoise.app.runs.recordings.observation import run
 
         done = run(recording, bed, options)
     from equipoise.app.logbook.output import hand_over

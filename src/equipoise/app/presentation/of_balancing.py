@@ -23,7 +23,7 @@ def lines(done: Balancing) -> Iterator[str]:
 
 def blocks(done: Balancing) -> Blocks:
     """Return steps, before and after, and the verdict."""
-    from equipoise.app.views import balance_views
+    from equipoise.app.views.balancing import balance_views
 
     return (*moments(done.steps), *balance_views.blocks(done))
 
@@ -43,7 +43,7 @@ def figure(done: Balancing) -> "Figure | None":
     """Return the centre of mass at every estimate, with target, tolerance and truth."""
     from equipoise.app.figures.balancing import balanced_steps
     from equipoise.app.figures.balancing.story import Story
-    from equipoise.app.views.balance_views import true_course
+    from equipoise.app.views.balancing.balance_views import true_course
 
     if not measurements(done):
         return None

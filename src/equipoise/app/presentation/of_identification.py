@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from equipoise.app.presentation import of_estimate
-from equipoise.app.runs.identification import Identification
+from equipoise.app.runs.recordings.identification import Identification
 from equipoise.app.text.blocks import Blocks
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from equipoise.app.presentation import of_estimate
-from equipoise.app.runs.joint_identification import JointIdentification
+from equipoise.app.runs.recordings.joint_identification import JointIdentification
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -16,7 +16,7 @@ def lines(done: Keeping) -> Iterator[str]:
 
 def blocks(done: Keeping) -> Blocks:
     """Return steps, what masses did, and the verdict."""
-    from equipoise.app.views import keep_views
+    from equipoise.app.views.balancing import keep_views
 
     return (*moments(done.steps), *keep_views.blocks(done))
 

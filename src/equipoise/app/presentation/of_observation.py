@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from equipoise.app.presentation.tables import Table
-from equipoise.app.runs.observation import Observation
+from equipoise.app.runs.recordings.observation import Observation
 from equipoise.app.text.numbers import unit_for, with_sd
 from equipoise.model.estimate import COM, INERTIA
 

@@ -12,7 +12,7 @@ from equipoise.app.figures.recording import swing_spectrum
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.build import estimate_sections, findings_section, steps_section
 from equipoise.app.report.run_record import Output, RunRecord, origin
-from equipoise.app.runs.assessment import AssessedPlatform
+from equipoise.app.runs.recordings.assessment import AssessedPlatform
 from equipoise.app.text.blocks import Blocks, Section, paragraphs
 from equipoise.app.text.estimate_text import outcome_claim, unobservable_items
 from equipoise.app.text.json_document import estimate_json

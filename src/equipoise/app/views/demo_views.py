@@ -15,7 +15,7 @@ from equipoise.app.report.build import estimate_sections, steps_section
 from equipoise.app.report.run_record import Output, RunRecord
 from equipoise.app.runs.demonstration import GOAL, DemoCourses, Demonstration, courses_of
 from equipoise.app.text.charts import Drawn
-from equipoise.app.views import balance_views
+from equipoise.app.views.balancing import balance_views
 from equipoise.model.step import Step
 
 

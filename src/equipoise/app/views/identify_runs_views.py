@@ -7,7 +7,7 @@ from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.estimate import run_boxes
 from equipoise.app.report.build import estimate_sections, findings_section, steps_section
 from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
-from equipoise.app.runs.joint_identification import IdentifiedRun, JointIdentification
+from equipoise.app.runs.recordings.joint_identification import IdentifiedRun, JointIdentification
 from equipoise.app.text.blocks import (
     Blocks,
     Column,

@@ -6,7 +6,7 @@ from equipoise.app.figures.catalogue import of_estimate
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.build import estimate_sections, findings_section, steps_section
 from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
-from equipoise.app.runs.identification import Identification
+from equipoise.app.runs.recordings.identification import Identification
 from equipoise.app.text.blocks import Blocks, paragraphs
 from equipoise.app.text.estimate_text import (
     estimate_tables,

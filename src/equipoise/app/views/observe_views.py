@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from equipoise.app.report.run_record import Output, RunRecord, origin
-from equipoise.app.runs.observation import Observation
+from equipoise.app.runs.recordings.observation import Observation
 from equipoise.app.text.blocks import (
     Blocks,
     Claim,

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.estimate import torque_by_cause
 from equipoise.app.report.run_record import Output, RunRecord, origin
-from equipoise.app.runs.torque_attribution import AttributedTorque
+from equipoise.app.runs.recordings.torque_attribution import AttributedTorque
 from equipoise.app.text.blocks import (
     Blocks,
     Claim,

@@ -7,6 +7,7 @@ over. Who reads that from a socket or a file is not known here.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from equipoise.model.errors import InputError
 from equipoise.model.permission import Experiment, Permission
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.reasons.step_reasons import StepReason
@@ -26,7 +27,7 @@ class Schedule:
 
     def at(self, t: float) -> tuple[Permission, tuple[Reason, ...]]:
         """Return what masses may do at a time (s), and why."""
-        wanted = self.experiment()
+        wanted = permission_of(self.experiment())
         if wanted is Permission.DONE:
             return wanted, one_reason(StepReason.EXPERIMENT_DONE)
         if wanted is Permission.HOLD:
@@ -37,3 +38,11 @@ class Schedule:
 
 
 ALWAYS = Schedule()
+
+
+def permission_of(word: str) -> Permission:
+    """Return what an experiment states; InputError for a word that states nothing."""
+    try:
+        return Permission(word)
+    except ValueError:
+        raise InputError("experiment", ascii(word), ", ".join(Permission)) from None

@@ -5,6 +5,7 @@ errors, lags. Nodes of the motion do not depend on how the bench is read. There 
 of the table, and no device beside the masses.
 """
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -24,7 +25,7 @@ from equipoise.dynamics.timeline import fill
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Series1
-from equipoise.model.bench_requests import check_duration
+from equipoise.model.bench_requests import check_duration, check_speed
 from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
@@ -107,9 +108,10 @@ class PlanarBench:
         self._track = actuator.without_past(self._track, self._node - self.platform.truth.mass_lag)
         return recording
 
-    def move(self, targets: Mapping[str, float]) -> None:
+    def move(self, targets: Mapping[str, float], speed: float = math.inf) -> None:
         """Set masses on their way to displacements from home (m); all of them or none."""
-        masses, faults = self.platform.masses, self.platform.truth.faults
+        check_speed(speed)
+        masses, faults = actuator.slowed(self.platform.masses, speed), self.platform.truth.faults
         goals = actuator.checked(self._travel, self._time, targets, masses)
         sent = actuator.sent(self._travel, self._time, goals, masses, faults, self._stops_rng)
         self._command(sent)

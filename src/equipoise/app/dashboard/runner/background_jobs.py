@@ -13,9 +13,10 @@ from equipoise.app.logbook.run_folder import name_of, own_folder
 from equipoise.app.report.run_record import Output
 from equipoise.app.report.write import write_output
 from equipoise.app.runs.balancing import Balancing
-from equipoise.app.runs.identification import run
+from equipoise.app.runs.recordings.identification import run
 from equipoise.app.runs.waiting import passing_on
-from equipoise.app.views import balance_views, identify_views
+from equipoise.app.views import identify_views
+from equipoise.app.views.balancing import balance_views
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed

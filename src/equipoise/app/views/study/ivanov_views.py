@@ -7,7 +7,7 @@ from equipoise.app.runs.balancing import Balancing
 from equipoise.app.text.blocks import Blocks, Section
 from equipoise.app.text.json_lists import REPRODUCE
 from equipoise.app.text.json_shape import View
-from equipoise.app.views import balance_views
+from equipoise.app.views.balancing import balance_views
 from equipoise.app.views.study.paper_views import paper_table
 from equipoise.model.units import MINUTE, UM
 from equipoise.study.papers.ivanov import DRIFT

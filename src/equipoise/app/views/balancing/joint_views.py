@@ -12,8 +12,8 @@ from equipoise.app.text.blocks import Blocks, paragraphs
 from equipoise.app.text.json_document import BALANCE
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import verdict_blocks
-from equipoise.app.views import balance_views, manual_views
-from equipoise.app.views.balance_views import change_blocks, requested, wanted
+from equipoise.app.views.balancing import balance_views, manual_views
+from equipoise.app.views.balancing.balance_views import change_blocks, requested, wanted
 from equipoise.procedure.identification.record_courses import RecordCourses
 
 

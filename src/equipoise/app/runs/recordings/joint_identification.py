@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.app.runs.plausible_record import CLOSED, Gate
+from equipoise.app.runs.recordings.plausible_record import CLOSED, Gate
 from equipoise.app.runs.waiting import QUIET, Waiting
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats

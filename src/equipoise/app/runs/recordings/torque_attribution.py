@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from equipoise.app.runs.identification import run as identified
-from equipoise.app.runs.plausible_record import CLOSED, Gate
+from equipoise.app.runs.recordings.identification import run as identified
+from equipoise.app.runs.recordings.plausible_record import CLOSED, Gate
 from equipoise.app.runs.waiting import QUIET, Waiting
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording

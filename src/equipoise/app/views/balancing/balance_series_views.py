@@ -16,7 +16,7 @@ from equipoise.app.text.json_document import BALANCE_SERIES
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import fixed, with_sd
 from equipoise.app.text.run_blocks import verdict_claim
-from equipoise.app.views.balance_views import document_fields, requested
+from equipoise.app.views.balancing.balance_views import document_fields, requested
 from equipoise.model.estimate import COM
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict

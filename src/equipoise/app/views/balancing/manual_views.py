@@ -15,7 +15,7 @@ from equipoise.app.text.estimate_text import outcome_claim
 from equipoise.app.text.json_document import BALANCE
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import verdict_blocks
-from equipoise.app.views.balance_views import change_blocks, requested, wanted
+from equipoise.app.views.balancing.balance_views import change_blocks, requested, wanted
 from equipoise.model.arrays import Vector3
 
 TRIAL = (

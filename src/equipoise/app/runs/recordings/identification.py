@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from equipoise.app.runs.plausible_record import CLOSED, Gate
+from equipoise.app.runs.recordings.plausible_record import CLOSED, Gate
 from equipoise.app.runs.waiting import QUIET, Waiting
 from equipoise.assessment.findings.event_findings import event_findings
 from equipoise.model.estimate import Estimate

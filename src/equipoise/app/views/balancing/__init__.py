@@ -1,0 +1,1 @@
+"""Balancings as blocks, documents and figures."""
