@@ -5,8 +5,8 @@ How strongly a wheel shows is the chi-square of what it adds to the gyro's rows,
 
     S = sum_rows |J^-1 d e'|^2 / noise^2
 
-A pendulum that the platform can bear moves too little for that. It shows as sag, and gravity acts
-at its pivot; what is stated must hold all the same, or say that it may not.
+A pendulum that the platform can bear moves too little for that. It shows as sag, from 5 % of the
+depth of com on, and gravity acts at its pivot: the outcome must say that intervals may not hold.
 """
 
 from collections.abc import Sequence

@@ -62,13 +62,13 @@ def wheel(rng: np.random.Generator, platform: oracle.Platform) -> Part:
 def pendulum(rng: np.random.Generator, platform: oracle.Platform) -> Part:
     """Return a bob that swings at 1.5 to 4 Hz: some cubic centimetres that slosh.
 
-    As elastic sag it raises com by m g / (W^2 M), by 3 to 25 % of how deep that is: a heavier bob
+    As elastic sag it raises com by m g / (W^2 M), by 5 to 25 % of how deep that is: a heavier bob
     would turn the platform over. Its spring is soft where the arm is long enough for gravity alone.
     """
     heading = rng.uniform(0, 2 * np.pi)
     axis = np.array([np.cos(heading), np.sin(heading), 0.0])
     W, z = 2 * np.pi * rng.uniform(1.5, 4.0), rng.uniform(0.002, 0.02)
-    sag = rng.uniform(0.03, 0.25) * -float(platform.com[2])
+    sag = rng.uniform(0.05, 0.25) * -float(platform.com[2])
     arm = min(0.1, platform.gravity / (0.9 * W**2)) * DOWN
     mass = sag * platform.mass * W**2 / platform.gravity
     moment = mass * float(arm @ arm) + LITTLE

@@ -81,7 +81,7 @@ HAPPENED: Mapping[OutcomeCode, tuple[Code, ...]] = {  # where it is not ESTIMATE
         Why.TOO_FEW_RUNS,
     ),
 }
-WIDENED = (Why.COLOURED_RESIDUAL, Why.RESIDUAL_LARGE, Why.RUNS_SCATTERED, ModeReason.SAG_MAY_HANG)
+WIDENED = (Why.COLOURED_RESIDUAL, Why.RESIDUAL_LARGE, Why.RUNS_SCATTERED)
 NOT_TRUSTWORTHY = (
     Why.BIAS_BY_NOISE,
     Why.BIAS_BY_SMOOTHING,
@@ -93,6 +93,7 @@ NOT_TRUSTWORTHY = (
     MassBudgetReason.SWINGS_CONTRADICT,
     Why.SENSOR_IMPLAUSIBLE,
     Why.BUDGET_SPENT,
+    ModeReason.SAG_MAY_HANG,
     ModeReason.MASS_SWINGS,
     ImplausibleReason.INERTIA_OF_NO_BODY,
     ImplausibleReason.SWINGS_WITH_COM_ABOVE,

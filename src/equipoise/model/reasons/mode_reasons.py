@@ -9,8 +9,8 @@ class ModeReason(Code):
     MODE_FOUND = "mode_found", "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}."
     SAG_MAY_HANG = (
         "sag_may_hang",
-        "What sags may hang: intervals of com along the vertical account for that. Declare sag if "
-        "parts only bend.",
+        "A part that sags may hang or slosh: do not trust the intervals. Declare sag under "
+        "[disturbance] if parts only bend.",
     )
     MASS_SWINGS = (
         "mass_swings",
