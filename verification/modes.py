@@ -25,6 +25,7 @@ from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import flexible_platform as flexible
 from tests.oracle import mujoco_bench as oracle
+from verification.chance import share_band
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn
 from verification.stated_errors import stated_errors
 
@@ -125,9 +126,10 @@ def rows_of_wheels(runs: Sequence[Found]) -> list[Row]:
     share = float(np.mean([run.is_found for run in runs]))
     z = np.array([run.z for run in runs if run.trust is not Trust.NOT_USABLE]).reshape(-1, 9)
     inside = float(np.mean(np.abs(z) < NORMAL_95))
+    band = share_band((0.9, 0.99), 0.95, len(runs))
     return [
         at_least(f"wheels found, S from {FLOOR:g} on, of {len(runs)}", share, 0.95),
-        between("com and inertia in their 95 % intervals, with wheels", inside, (0.9, 0.99)),
+        between("com and inertia in their 95 % intervals, with wheels", inside, band),
     ]
 
 
