@@ -7,9 +7,11 @@ by c. The two differ in second order of the tilt only. The linear sag of a fit,
     r = r0 + C n,      c = greatest - least eigenvalue of C,
 
 has no meaning to that order where the part hangs. A record cannot show whether it does. So a sag
-that nobody declared adds the variance c^2 to com along the vertical of the level platform. Other numbers
-differ in second order, too, some by several sd where the sensors are good: no interval is to be
-trusted until someone states that parts only bend. A mode beside a sag says that a mass swings.
+that nobody declared adds the variance c^2 to com along the vertical of the level platform.
+
+Other numbers differ in second order, too, some by several sd where the sensors are good. No
+interval is to be trusted until someone states that parts only bend. A mode beside a sag says that
+a mass swings.
 
 Cannot see a hanging mass that moves alike to all sides: gravity acts at its pivot, and com is as it
 acts. Nor one whose sag the record does not show.
