@@ -135,6 +135,14 @@ SENSORS = _of(
 
 DYNAMICS = _of(
     "dynamics",
+    ("modal_motion.py", "xx - a * a, yy - b * b", "xx + a * a, yy - b * b",
+     "dynamics/test_modal_motion.py"),
+    ("modal_motion.py", "pull - mode[W] *", "pull + mode[W] *", "dynamics/test_modal_motion.py"),
+    ("modal_motion.py", "mode[S + j] * (g[j] - level[j])", "mode[S + j] * (g[j] + level[j])",
+     "dynamics/test_modal_motion.py"),
+    ("modal_motion.py", "r0 - a * p", "r0 + a * p", "dynamics/test_modal_motion.py"),
+    ("modal_inputs.py", ".values) + read_at", ".values) - read_at",
+     "dynamics/test_modal_motion.py"),
     *((f"planar/{file}.py", text, broken, "dynamics/planar/test_planar_motion.py")
       for file, text, broken in (
         ("planar_motion", "dy[4 + j] -= carried[j]", "dy[4 + j] += carried[j]"),
@@ -298,6 +306,17 @@ ASSESSMENT = _of(
 
 ESTIMATION = (*_of(
     "estimation",
+    ("modes/residual_line.py", "+ np.log1p(x + x * x / 2) - x", "- np.log1p(x + x * x / 2) - x",
+     "estimation/modes/test_residual_line.py"),
+    ("modes/modal_response.py", "square, frequency**2) / 12.0", "square, frequency**2) / -12.0",
+     "estimation/modes/test_modal_response.py"),
+    ("modes/hanging_mass.py", "sizes[-1] - sizes[0]", "sizes[-1] + sizes[0]",
+     "estimation/modes/test_hanging_mass.py"),
+    ("modes/hanging_mass.py", "covariance + column", "covariance - column",
+     "estimation/modes/test_hanging_mass.py"),
+    ("modes/modal_search.py", "lost < 2.0", "lost > 2.0", "estimation/modes/test_modal_search.py"),
+    ("modes/modal_fit.py", "-(by_theta.T @ r)", "(by_theta.T @ r)",
+     "estimation/modes/test_modal_fit.py"),
     *((f"torque_by_cause/{module}.py", text, broken, f"estimation/torque_by_cause/test_{test}.py")
       for module, test, text, broken in (
         ("gauss_markov", "gauss_markov", "info - P_u.T @ spread", "info + P_u.T @ spread"),

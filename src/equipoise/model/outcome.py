@@ -11,6 +11,7 @@ from enum import StrEnum
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.implausible_reasons import ImplausibleReason
 from equipoise.model.reasons.mass_budget_reasons import MassBudgetReason
+from equipoise.model.reasons.mode_reasons import ModeReason
 from equipoise.model.reasons.reason import Code, Number, Reason, Reasoned, one_reason
 from equipoise.model.reasons.table_reasons import TableReason
 
@@ -92,6 +93,8 @@ NOT_TRUSTWORTHY = (
     MassBudgetReason.SWINGS_CONTRADICT,
     Why.SENSOR_IMPLAUSIBLE,
     Why.BUDGET_SPENT,
+    ModeReason.SAG_MAY_HANG,
+    ModeReason.MASS_SWINGS,
     ImplausibleReason.INERTIA_OF_NO_BODY,
     ImplausibleReason.SWINGS_WITH_COM_ABOVE,
 )

@@ -35,6 +35,7 @@ from equipoise.model.devices import (
 )
 from equipoise.model.hardware import Hardware
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.modes import Mode
 from equipoise.model.presentation import Shown
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.table_top import PlanarTable, PositionSensor, TrueTable
@@ -169,6 +170,7 @@ class Truth:
     sun_mounting: Vector3 = field(default_factory=nothing)  # rad
     magnetometer_mounting: Vector3 = field(default_factory=nothing)  # rad
     lamp: TrueLamp | None = None  # None: there is none, or it is always off
+    modes: tuple[Mode, ...] = ()  # what is not rigid
     table: TrueTable | None = None  # None: level, without friction; P starts at rest in the middle
 
 

@@ -22,6 +22,7 @@ import numpy as np
 from equipoise.actuators.control_moment_gyros import gimbal_maps
 from equipoise.actuators.sliding_masses import com_shift, inertia_shift, mass_maps
 from equipoise.actuators.stored_momentum import stored_momentum
+from equipoise.dynamics.modal_motion import begun, modes_of
 from equipoise.dynamics.propagation import rigid_body, stacked
 from equipoise.dynamics.regressor import DRIFT, THERMAL
 from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
@@ -108,6 +109,7 @@ class SimulatedBench:
         self._sensors = (testbed.attitude, testbed.gyro, *self._vectors)
         body, truth, masses = self.platform.body, self.platform.truth, self.platform.masses
         self._body = rigid_body(body, testbed.gravity, self.platform.torque)
+        self._modes = modes_of(truth.modes, testbed.up, testbed.gravity) if truth.modes else None
         self._stop = stop_at(testbed.up, testbed.tilt_limit)
         self._touched = Noted()
         self._happens = times([*truth.contacts, *truth.com_steps])
@@ -231,7 +233,10 @@ class SimulatedBench:
         shift = inertia_shift(gimbal_maps(self.testbed.cmgs), gimbals[0])
         shift += inertia_shift(self._rails, self._travel.end[actuator.REAL])
         inertia = truth.body.inertia_P + unpack_symmetric(shift)
-        return np.concatenate([truth.attitude, inertia @ truth.rate + h[0]])
+        modes = truth.truth.modes
+        inner = sum((mode.coupling * mode.velocity for mode in modes), h[0])
+        H = inertia @ truth.rate + inner
+        return np.concatenate([truth.attitude, H, begun(modes, truth.rate)])
 
     def _command(self, travel: actuator.Travel) -> None:
         self._travel = travel
@@ -258,13 +263,13 @@ class SimulatedBench:
         dipole, jets = effects(self.testbed, self._devices, t)
         torque, warmth = torque_at(self._noise, t) + jets, warmth_since_start(self._lamp, t)
         known = np.hstack([h, torque, warmth, self._real(t), gimbals])
-        platform = (self._body, self._maps, self._state, t, known)
+        platform, modes = (self._body, self._maps, self._state, t, known), self._modes
         stop = self._stop if t[-1] > t[0] else NO_STOP
         events = (stop, truth.contacts, truth.com_steps)
         if self.platform.field is None or not dipole.any():
-            return run_through(*platform, *events)
+            return run_through(*platform, *events, modes)
         field_N = field_at(self.platform.field, self.testbed, self._devices, t)
-        return run_magnetised(*platform, *events, dipole, field_N)
+        return run_magnetised(*platform, *events, dipole, field_N, modes)
 
     def _real(self, t: Series1) -> Floats:
         """Return where the masses really are, m from home, (n, k)."""

@@ -11,11 +11,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from equipoise.dynamics.rigid_body import Body
+from equipoise.dynamics.modal_motion import Modes
+from equipoise.dynamics.rigid_body import ROWS, Body
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Series1, Vector3
 from equipoise.model.defects import ComStep, Contact
 from equipoise.simulation.clock import tick, tick_one
+from equipoise.simulation.flexible.modal_path import run_modes
 from equipoise.simulation.motion import Path, in_pieces, run
 from equipoise.simulation.stop import Stop
 
@@ -28,11 +30,12 @@ def times(events: Sequence[Event]) -> Series1:
 
 
 def struck(y: Floats, contacts: Sequence[Contact], t: float) -> Floats:
-    """Return the state (7,) just after a moment (s) from that just before."""
+    """Return the state just after a moment (s) from that just before."""
     now = [contact.impulse for contact in contacts if tick_one(contact.time) == t]
     if not now:
         return y
-    return np.append(y[:4], y[4:] + to_matrix(y[:4]).T @ np.sum(now, axis=0))
+    struck_by = to_matrix(y[:4]).T @ np.sum(now, axis=0)
+    return np.concatenate([y[:4], y[4:ROWS] + struck_by, y[ROWS:]])
 
 
 def com_moved(steps: Sequence[ComStep], t: float) -> Vector3:
@@ -55,15 +58,22 @@ def run_through(
     stop: Stop,
     contacts: Sequence[Contact],
     steps: Sequence[ComStep],
+    modes: Modes | None = None,
 ) -> Path:
     """Return the motion as ``motion.run`` does; events that happen on the way must be nodes."""
+
+    def between(body: Body, start: Floats, t: Series1, known: Floats) -> Path:
+        if modes is None:
+            return run(body, maps, start, t, known, stop)
+        return run_modes(body, maps, modes, start, t, known, stop)
+
     if not contacts and not steps:
-        return run(body, maps, y, t, known, stop)
+        return between(body, y, t, known)
     happens = np.isin(t[1:-1], times([*contacts, *steps]))
 
     def follow(here: Floats, piece: slice) -> Path:
         now = float(t[piece.start])
         start = struck(here, contacts, now)
-        return run(slipped(body, steps, now), maps, start, t[piece], known[piece], stop)
+        return between(slipped(body, steps, now), start, t[piece], known[piece])
 
     return in_pieces([0, *(np.flatnonzero(happens) + 1).tolist(), len(t) - 1], y, follow)

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from equipoise.dynamics.rigid_body import KNOWN_D, Body
+from equipoise.dynamics.modal_motion import Modes
+from equipoise.dynamics.rigid_body import KNOWN_D, ROWS, Body
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Vector3
@@ -31,10 +32,10 @@ def magnetic_torque(
 
 
 def rate_at(body: Body, maps: Floats, y: Floats, known: Floats) -> Vector3:
-    """Return J(d)^-1 (H - h), rad/s; the momentum of masses on their way is left out."""
+    """Return J(d)^-1 (H - h), rad/s, without the momentum of modes and of masses on their way."""
     d = known[KNOWN_D:]
     inertia = np.array(body.inertia) + d @ maps[:, 3:9] + d**2 @ maps[:, 9:15]
-    rate: Vector3 = np.linalg.inv(unpack_symmetric(inertia)) @ (y[4:] - known[:3])
+    rate: Vector3 = np.linalg.inv(unpack_symmetric(inertia)) @ (y[4:ROWS] - known[:3])
     return rate
 
 
@@ -49,6 +50,7 @@ def run_magnetised(
     steps: Sequence[ComStep],
     dipole: Series3,
     field_N: Series3,
+    modes: Modes | None = None,
 ) -> Path:
     """Return the motion as ``events.run_through`` does, with dipoles (n, 3) in fields (n, 3) T."""
     whole = np.flatnonzero(tick(t - PIECE * np.round(t / PIECE)) == 0)
@@ -58,6 +60,6 @@ def run_magnetised(
         torqued = known[piece].copy()
         rate = rate_at(body, maps, here, torqued[0])
         torqued[:, 3:6] += magnetic_torque(dipole[piece], field_N[piece], t[piece], here[:4], rate)
-        return run_through(body, maps, here, t[piece], torqued, stop, contacts, steps)
+        return run_through(body, maps, here, t[piece], torqued, stop, contacts, steps, modes)
 
     return in_pieces(edges.tolist(), y, follow)

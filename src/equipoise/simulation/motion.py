@@ -35,15 +35,16 @@ NO_OWNERS = np.zeros((0, 2), dtype=np.int64)
 class Path(NamedTuple):
     """The motion at every node."""
 
-    y: Floats  # (n, 7) attitude, then angular momentum about P in body axes, N m s
+    y: Floats  # (n, 7) attitude, then angular momentum about P in body axes, N m s; and what a
+    # platform with modes has behind these (``dynamics.modal_motion``)
     rate: Floats  # (n, 3) rad/s
     touch: Floats  # (n, 4) of the stop since the node before, zeros if none: first and last time,
     # s; impulse along laboratory x and y, N m s
 
 
-def path_of(n: int) -> Path:
-    """Return a motion of n nodes to be written."""
-    return Path(np.zeros((n, ROWS)), np.zeros((n, 3)), np.zeros((n, 4)))
+def path_of(n: int, width: int = ROWS) -> Path:
+    """Return a motion of n nodes to be written, of a state of so many numbers."""
+    return Path(np.zeros((n, width)), np.zeros((n, 3)), np.zeros((n, 4)))
 
 
 def in_pieces(edges: Sequence[int], y: Floats, follow: Callable[[Floats, slice], Path]) -> Path:
@@ -51,7 +52,7 @@ def in_pieces(edges: Sequence[int], y: Floats, follow: Callable[[Floats, slice],
 
     ``follow`` returns the motion along a slice of nodes, from the state at its first.
     """
-    path = path_of(edges[-1] + 1)
+    path = path_of(edges[-1] + 1, len(y))
     path.y[0] = y
     for a, b in pairwise(edges):
         part = follow(path.y[a], slice(a, b + 1))

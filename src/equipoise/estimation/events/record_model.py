@@ -24,6 +24,7 @@ from equipoise.estimation.search_budget import Stage
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Bools, Floats, Series1, Square, Vector3
 from equipoise.model.estimate import RATE
+from equipoise.model.modes import FreeMode
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS, typical_sizes
@@ -66,6 +67,7 @@ class RecordModel:
     coloured: float = 1.0  # times an interval is as wide as rows say that err independently
     unfinished: tuple[Stage, ...] = ()  # of the search, when its budget was spent
     rivals: tuple["Rival", ...] = ()  # models that are about as likely
+    modes: tuple[FreeMode, ...] = ()  # what is not rigid, as ``params.modal`` has it
 
     def may(self, stage: Stage) -> bool:
         """Say whether the search of this model may go on."""

@@ -38,6 +38,9 @@ from equipoise.estimation.model_selection.survey_reasons import (
     term_reasons,
     walk_reasons,
 )
+from equipoise.estimation.modes.hanging_mass import with_hanging
+from equipoise.estimation.modes.modal_estimate import mode_reasons, with_modal_numbers
+from equipoise.estimation.modes.modal_search import settled_modes, with_modes
 from equipoise.estimation.motion.unresolved_rates import without_unresolved_rates
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude, widening
 from equipoise.estimation.output_error.growing_horizon import at_rest
@@ -118,6 +121,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
         *clock_reasons(model, concluded),
         *lean_reasons(model, concluded),
         *sensor_reasons(model, concluded),
+        *mode_reasons(model),
         *term_reasons(added(model, requested), concluded, model.testbed),
         *lamp_reasons(model),
         *walk_reasons(model),
@@ -145,10 +149,11 @@ def surveyed(recording: Recording, testbed: Testbed, params: Params) -> RecordMo
     """Return the model that a record supports, from the plain fit."""
     few = condensed(recording, testbed)
     if few is not None:
-        return surveyed_densely(few, recording, testbed, params)
+        return settled_modes(with_modes(surveyed_densely(few, recording, testbed, params)))
     richer, fitted = plainly(recording, testbed, params)
     nearer, fitted = anchored(recording, testbed, richer, fitted)
-    return replace(survey(recording, nearer, richer, fitted), stated=testbed)
+    found = settled_modes(with_modes(survey(recording, nearer, richer, fitted)))
+    return replace(found, stated=testbed)
 
 
 def check_sensors(recording: Recording, testbed: Testbed) -> None:
@@ -248,6 +253,7 @@ def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Esti
     The latter where the search was finished: it takes long, and is not needed.
     """
     concluded = with_rivals(with_response(with_moments(concluded, model), model), model)
+    concluded = with_hanging(with_modal_numbers(concluded, model), model, params.terms)
     concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
     residual = concluded.residual if model.unfinished else held_out(model, concluded.residual)

@@ -15,6 +15,7 @@ Cannot see events below the threshold, nor two within one stretch. An impulse is
 step of the centre of mass only when the rows behind it swing.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -39,6 +40,7 @@ from equipoise.estimation.model_selection.model_search import (
     repeated,
     wandering,
 )
+from equipoise.estimation.modes.modal_search import with_modes
 from equipoise.estimation.output_error.solution import Fitted, at_once, smooth_at
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.search_budget import UNLIMITED, Stage
@@ -68,14 +70,30 @@ def cut_times(recording: Recording) -> Series1:
     return np.arange(start + EDGE * spacing, end - (EDGE - 0.5) * spacing, spacing)
 
 
-def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> RecordModel:
+def levelled_with_modes(model: RecordModel) -> RecordModel:
+    """Return the model with which a search begins: its vertical, its lamp, and its modes.
+
+    A mode comes first: process noise and events would stand for it. A motion that was not found
+    shows none.
+    """
+    found = levelled(model)
+    return with_modes(found) if is_near(found.fitted) else found
+
+
+def survey(
+    recording: Recording,
+    testbed: Testbed,
+    params: Params,
+    fitted: Fitted,
+    first: Callable[[RecordModel], RecordModel] = levelled_with_modes,
+) -> RecordModel:
     """Return the model that the record supports, and the fit in it; unsettled if it went astray."""
     cuts = cut_times(recording)
     model = RecordModel(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
     if len(cuts) < FEWEST:
         return ended(replace(model, cuts=np.zeros(0)))
     try:
-        found = ended(examined(levelled(model)))
+        found = ended(examined(first(model)))
         return found if found.unfinished else coloured(found)
     except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
         return ended(replace(model, cuts=np.zeros(0)))

@@ -13,6 +13,7 @@ from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.actuators.stops import changing_rows
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.lamp_warmth import temperature_of
+from equipoise.dynamics.modal_inputs import ModalInputs, summed
 from equipoise.dynamics.propagation import stacked
 from equipoise.dynamics.sensitivities import Columns
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, place, timeline
@@ -92,6 +93,7 @@ class Problem:
     longest: float  # s, of a step of integration
     jumps: tuple[Jump, ...] = UNCUT
     budget: Budget = UNLIMITED  # of its descents
+    modal: ModalInputs | None = None  # of modes, as a fit before had them
 
 
 def columns_of(layout: Layout) -> Columns:
@@ -274,6 +276,7 @@ def pose(
     limit: float,
     scale_open: bool,
     jumps: tuple[Jump, ...] = UNCUT,
+    modal: ModalInputs | None = None,
 ) -> Problem:
     """Return the problem of a recording, integrated in steps of ``longest`` seconds at most."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
@@ -284,8 +287,8 @@ def pose(
         on_rails(track_of(recording, testbed), len(rails)),
         len(rails),
         longest,
-        recording.momentum,
-        recording.torque,
+        summed(recording.momentum, modal and modal.momentum),
+        summed(recording.torque, modal and modal.torque),
         errors.response,
         errors.owner,
         at_nodes=False,
@@ -311,13 +314,13 @@ def pose(
     columns = columns_of(layout)
     return Problem(testbed.body.mass, testbed.gravity, maps, errors, line, measurements, layout,
                    columns, prior, limit, scale_open, recording, testbed, longest,
-                   jumps)  # fmt: skip
+                   jumps, modal=modal)  # fmt: skip
 
 
 def reposed(problem: Problem, recording: Recording, testbed: Testbed) -> Problem:
     """Return the problem with other inputs: its unknowns, priors and jumps as they are."""
     return pose(recording, testbed, problem.layout, problem.errors, problem.prior, problem.longest,
-                problem.limit, problem.scale_open, problem.jumps)  # fmt: skip
+                problem.limit, problem.scale_open, problem.jumps, problem.modal)  # fmt: skip
 
 
 @lru_cache(maxsize=1)  # settled, smoothed and judged in turn; by identity

@@ -23,6 +23,7 @@ from functools import lru_cache
 import numpy as np
 
 from equipoise.actuators.mass_errors import MassErrors
+from equipoise.dynamics.modal_inputs import ModalInputs
 from equipoise.estimation.motion.observed_vectors import errors_of_vectors
 from equipoise.estimation.motion.sensor_noise import (
     camera_noise,
@@ -92,6 +93,7 @@ class Params:
     travels_count: bool = True  # masses went as recorded, so that travels give the scale
     typical: tuple[str, ...] = ()  # torques that are as large as benches have them
     budget: Budget = UNLIMITED  # of the search
+    modal: ModalInputs | None = None  # what modes do to the body, where there are any
 
 
 def layout_of(recording: Recording, testbed: Testbed, params: Params) -> Layout:
@@ -166,7 +168,16 @@ def problem_of(
     limit = HUBER if params.robust else 0.0
     longest = longest_step(testbed, fastest_rate(recording), recording.rows) / params.fineness
     posed = pose(
-        recording, testbed, layout, errors, prior, longest, limit, scale_open, params.jumps
+        recording,
+        testbed,
+        layout,
+        errors,
+        prior,
+        longest,
+        limit,
+        scale_open,
+        params.jumps,
+        params.modal,
     )
     return replace(posed, budget=params.budget)
 

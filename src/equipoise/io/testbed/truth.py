@@ -9,6 +9,7 @@ from pydantic import Field
 from equipoise.io.testbed.inertia_check import check_inertia
 from equipoise.io.testbed.platform import Platform
 from equipoise.io.testbed.table_top import TrueTable
+from equipoise.io.testbed.true_modes import TrueMode
 from equipoise.io.testbed.true_surroundings import TrueCoilPair, TrueLamp
 from equipoise.io.toml.key_types import (
     Direction,
@@ -188,6 +189,7 @@ class Truth(RecordTable):
     gap: Annotated[list[Gap], Holds("gaps")] = Field([])
     coil_pair: Annotated[list[TrueCoilPair], Holds("cage")] = Field([])
     lamp: TrueLamp | None = None
+    mode: Annotated[list[TrueMode], Holds("modes")] = Field([])
     table: TrueTable | None = None
 
     @classmethod

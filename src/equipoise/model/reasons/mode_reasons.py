@@ -1,0 +1,18 @@
+"""What there is to know about an estimate of a platform that is not rigid."""
+
+from equipoise.model.reasons.reason import Code
+
+
+class ModeReason(Code):
+    """One thing to know about such an estimate, with its sentence."""
+
+    MODE_FOUND = "mode_found", "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}."
+    SAG_MAY_HANG = (
+        "sag_may_hang",
+        "A part that sags may hang or slosh: do not trust the intervals. Declare sag under "
+        "[disturbance] if parts only bend.",
+    )
+    MASS_SWINGS = (
+        "mass_swings",
+        "A mode and sag together: a mass swings or sloshes. Do not trust the intervals.",
+    )

@@ -1,0 +1,1 @@
+"""The motion of a simulated platform that is not rigid."""
