@@ -312,8 +312,6 @@ ESTIMATION = (*_of(
      "estimation/modes/test_modal_response.py"),
     ("modes/hanging_mass.py", "sizes[-1] - sizes[0]", "sizes[-1] + sizes[0]",
      "estimation/modes/test_hanging_mass.py"),
-    ("modes/hanging_mass.py", "covariance + column", "covariance - column",
-     "estimation/modes/test_hanging_mass.py"),
     ("modes/modal_search.py", "lost < 2.0", "lost > 2.0", "estimation/modes/test_modal_search.py"),
     ("modes/modal_fit.py", "-(by_theta.T @ r)", "(by_theta.T @ r)",
      "estimation/modes/test_modal_fit.py"),

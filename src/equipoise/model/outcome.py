@@ -93,7 +93,6 @@ NOT_TRUSTWORTHY = (
     MassBudgetReason.SWINGS_CONTRADICT,
     Why.SENSOR_IMPLAUSIBLE,
     Why.BUDGET_SPENT,
-    ModeReason.SAG_MAY_HANG,
     ModeReason.MASS_SWINGS,
     ImplausibleReason.INERTIA_OF_NO_BODY,
     ImplausibleReason.SWINGS_WITH_COM_ABOVE,

@@ -6,12 +6,10 @@ by c. The two differ in second order of the tilt only. The linear sag of a fit,
 
     r = r0 + C n,      c = greatest - least eigenvalue of C,
 
-has no meaning to that order where the part hangs. A record cannot show whether it does. So a sag
-that nobody declared adds the variance c^2 to com along the vertical of the level platform.
-
-Other numbers differ in second order, too, some by several sd where the sensors are good. No
-interval is to be trusted until someone states that parts only bend. A mode beside a sag says that
-a mass swings.
+has no meaning to that order where the part hangs. A record cannot show whether it does, and most
+parts bend. So a sag that nobody declared is reported with c: by so much com along the vertical may
+be off, and other numbers by some sd where the sensors are good. A mode beside a sag says that a
+mass swings: then no interval is to be trusted.
 
 Cannot see a hanging mass that moves alike to all sides: gravity acts at its pivot, and com is as it
 acts. Nor one whose sag the record does not show.
@@ -21,11 +19,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.event_time_covariance import wider
 from equipoise.estimation.events.record_model import RecordModel
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats
-from equipoise.model.estimate import COM, END, Estimate
+from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.mode_reasons import ModeReason
 from equipoise.model.reasons.reason import Reason
@@ -41,14 +38,8 @@ def height_of(sag: Floats) -> float:
     return float(sizes[-1] - sizes[0])
 
 
-def rises(concluded: Estimate, model: RecordModel, height: float) -> Floats:
-    """Return by how much a height (m) along the vertical moves each parameter, (parameters, 1)."""
-    amounts = {name: height * float(model.testbed.up[k % 3]) for k, name in enumerate(COM + END)}
-    return np.array([[amounts.get(p.name, 0.0)] for p in concluded.parameters])
-
-
 def with_hanging(concluded: Estimate, model: RecordModel, declared: tuple[str, ...]) -> Estimate:
-    """Return an estimate that counts that what sags may hang; ``declared`` terms bend.
+    """Return an estimate that states that what sags may hang; ``declared`` terms bend.
 
     The same where the record shows no sag that is not declared.
     """
@@ -56,13 +47,9 @@ def with_hanging(concluded: Estimate, model: RecordModel, declared: tuple[str, .
     if not concluded.outcome.usable or not found or found <= set(declared):
         return concluded
     values = {p.name: p.value for p in concluded.parameters}
-    column = rises(concluded, model, height_of(np.array([values.get(t, 0.0) for t in SAG])))
-    reasons = [*concluded.outcome.reasons, Reason(ModeReason.SAG_MAY_HANG)]
+    height = height_of(np.array([values.get(term, 0.0) for term in SAG]))
+    reasons = [*concluded.outcome.reasons]
+    reasons.append(Reason(ModeReason.SAG_MAY_HANG, (), {"height": height}))
     if model.modes:
         reasons.append(Reason(ModeReason.MASS_SWINGS))
-    return replace(
-        concluded,
-        parameters=wider(concluded.parameters, column),
-        covariance=concluded.covariance + column @ column.T,
-        outcome=Outcome(tuple(reasons)),
-    )
+    return replace(concluded, outcome=Outcome(tuple(reasons)))

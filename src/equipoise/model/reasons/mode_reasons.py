@@ -9,8 +9,8 @@ class ModeReason(Code):
     MODE_FOUND = "mode_found", "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}."
     SAG_MAY_HANG = (
         "sag_may_hang",
-        "A part that sags may hang or slosh: do not trust the intervals. Declare sag under "
-        "[disturbance] if parts only bend.",
+        "A part that sags may hang instead: com along the vertical may then be off by "
+        "{height:um .2g} um, and other intervals too narrow.",
     )
     MASS_SWINGS = (
         "mass_swings",
