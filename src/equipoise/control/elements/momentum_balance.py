@@ -17,8 +17,8 @@ is weighted as if that error lasted for SAME_TURN, so that mainly samples at res
 effect during a turn is not lost, since L carries it to the next rest. Samples during mass travel
 are rejected: the momentum of the masses is not known.
 
-A move leaves an error: the accuracy of each mass that may have moved, one whose own step shifts by
-less than twice as much. r walks by CREEP, less where drift is a term; c are constants.
+A move leaves an error: the accuracy of each mass that may have moved, a coarse one from where finer
+ones do not go at once (``mass_allocation.least_changes``). r walks by CREEP, less where drift is a term; c are constants.
 
 (Wheel momentum build-up: Hatcher and Young 1968 with wheels for jets.)
 
@@ -30,6 +30,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.mass_allocation import least_changes, rails_of
 from equipoise.control.law import Sample
 from equipoise.dynamics.regressor import TORQUE, WIDTH, torque_columns
 from equipoise.dynamics.sag_trim import sag_matrix
@@ -62,6 +63,7 @@ class Book(NamedTuple):
     terms: tuple[str, ...]
     columns: tuple[int, ...]  # of the regressor, of these terms
     masses: tuple[SlidingMass, ...]
+    least: Floats  # (k,) m, changes of the shift from which on each may move
 
 
 class Ledger(NamedTuple):
@@ -93,6 +95,7 @@ def book_of(testbed: Testbed) -> Book:
         terms,
         tuple(TORQUE + TERMS.index(term) for term in terms),
         testbed.masses,
+        least_changes(rails_of(testbed.masses, testbed.body.mass)),
     )
 
 
@@ -132,8 +135,8 @@ def opened(testbed: Testbed, book: Book, sample: Sample) -> Ledger:
 def stop_variance(change: Vector3, book: Book) -> Vector3:
     """Return the variance (m^2) that a change of the shift (m) leaves, per axis."""
     size, variance = float(np.linalg.norm(change)), np.zeros(3)
-    for mass in book.masses:
-        if size > 0.5 * mass.mass * mass.resolution / book.mass:
+    for mass, least in zip(book.masses, book.least, strict=True):
+        if size > least:
             variance += (mass.mass * mass.accuracy / book.mass * mass.axis) ** 2
     return variance
 
