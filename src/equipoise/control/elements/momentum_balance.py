@@ -18,8 +18,8 @@ effect during a turn is not lost, since L carries it to the next rest. Samples d
 are rejected: the momentum of the masses is not known.
 
 A move leaves an error: the accuracy of each mass that may have moved, a coarse one from where finer
-ones do not go at once (``mass_allocation.least_changes``). r walks as the
-testbed states, less where drift is a term; c are constants.
+ones do not go at once (``mass_allocation.least_changes``). The sd of tau and the walk of r are the
+testbed's; r walks less where drift is a term. c are constants.
 
 (Wheel momentum build-up: Hatcher and Young 1968 with wheels for jets.)
 
