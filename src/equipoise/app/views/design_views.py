@@ -207,7 +207,9 @@ def together_table(found: Sizing) -> Blocks:
     """Return what changes leave that are made one after the other, where one is not enough."""
     rows = [(b.name, plain(b.torque / UN_M)) for b in found.together]
     columns = (Column("improvement"), number("residual then", "uN m"))
-    return (table("Improvements together, in the order of what limits", columns, rows),) * bool(rows)
+    return (table("Improvements together, in the order of what limits", columns, rows),) * bool(
+        rows
+    )
 
 
 def uncounted(case: Case) -> tuple[str, ...]:

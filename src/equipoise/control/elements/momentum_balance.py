@@ -93,7 +93,9 @@ def book_of(testbed: Testbed) -> Book:
         testbed.inertia_sd,
         testbed.gyro.noise / testbed.gyro.rate**0.5,
         max([*quiet, 1e-9]),
-        testbed.com_walk / MINUTE**0.5 * (LEFT if any(term.startswith("drift") for term in terms) else 1.0),
+        testbed.com_walk
+        / MINUTE**0.5
+        * (LEFT if any(term.startswith("drift") for term in terms) else 1.0),
         testbed.air_torque,
         terms,
         tuple(TORQUE + TERMS.index(term) for term in terms),

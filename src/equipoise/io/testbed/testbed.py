@@ -100,10 +100,11 @@ class Disturbance(Table):
 
     consider: Annotated[list[str], Holds("disturbances")] = Field(default=[])
     air_torque_N_m: Positive = Field(
-        2e-6, description="torque of air and bearing, standard deviation per axis"
+        default=2e-6, description="torque of air and bearing, standard deviation per axis"
     )
     com_walk_um: Positive = Field(
-        0.05, description="random walk of the centre of mass, standard deviation after a minute"
+        default=0.05,
+        description="random walk of the centre of mass, standard deviation after a minute",
     )
 
 

@@ -16,6 +16,7 @@ from equipoise.planning.sizing.mass_steps import MassStep, mass_steps
 from equipoise.planning.sizing.reachable_set import Reach, reach_of
 from equipoise.planning.sizing.sensitivity import Bettered, changes, what_to_buy
 
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Sizing(Plotted):
     """The result for the masses and sensors of a testbed."""
