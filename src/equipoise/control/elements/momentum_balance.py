@@ -47,7 +47,7 @@ L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 
 PLAY_TIME = 30.0  # s, chosen: currents of air in a room
 BIAS_SD = 1e-4  # rad/s, chosen: a camera of 0.2 deg and 5 Hz leaves so much after ten seconds
-LEFT = 0.2  # of the testbed's random walk, chosen: the rest where a constant drift is a term of its own
+LEFT = 0.2  # of that random walk, chosen: the rest where a constant drift is a term of its own
 SAME_TURN = 10.0  # s, chosen: as long as a turn lasts, in which an error of J w keeps its sign
 STANDS = 1e-10  # m, chosen: less is no travel
 
