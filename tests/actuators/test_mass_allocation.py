@@ -7,7 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equipoise.actuators.mass_allocation import allocate, rails_of, tiers_of
+from equipoise.actuators.mass_allocation import (
+    allocate,
+    least_changes,
+    rails_of,
+    tiers_of,
+    without_delay,
+)
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.model.testbed import SlidingMass
 from equipoise.procedure.steps.displacement_choice import displacements_for
@@ -117,17 +123,48 @@ def test_coarse_masses_stay_while_a_fine_pyramid_can_do_it(now, fine):
     np.testing.assert_allclose(d[:3], now[:3], atol=1e-12)
 
 
-def test_coarse_masses_go_no_further_than_they_must():
-    """Fine reach: 0.05 kg x 20 mm = 1 kg mm. Wanted 1.26 kg mm: six steps of 0.05 kg mm at least.
+def test_coarse_masses_go_no_further_than_leaves_the_fine_ones_room():
+    """Fine reach: 0.05 kg x 20 mm = 1 kg mm, of which 0.6 is used when a coarse mass moves.
 
-    And back: from there the fine mass takes all down to -0.7 kg mm before the coarse one moves.
+    Wanted 1.26 kg mm: fourteen steps of 0.05 kg mm. And back: from there the fine mass takes all
+    down to -0.3 kg mm before the coarse one moves, to five steps, with -0.56 kg mm for the fine.
     """
     rails, along = rails_of(COARSE + FINE, MASS), np.array([1e-3 / MASS, 0.0, 0.0])
     d = allocate(rails, np.zeros(6), 1.26 * along)
-    np.testing.assert_allclose(d, [6e-4, 0, 0, (1.26 - 0.3) / 0.05 * 1e-3, 0, 0], atol=1e-12)
-    back = allocate(rails, d, -0.69 * along)
+    np.testing.assert_allclose(d, [14e-4, 0, 0, (1.26 - 0.7) / 0.05 * 1e-3, 0, 0], atol=1e-12)
+    back = allocate(rails, d, -0.29 * along)
     np.testing.assert_allclose(back[:3], d[:3], atol=1e-12)
-    assert allocate(rails, d, -0.71 * along)[0] == pytest.approx(5e-4)
+    assert allocate(rails, d, -0.31 * along)[0] == pytest.approx(5e-4)
+
+
+def test_after_a_coarse_move_a_small_one_is_the_fine_masses_alone():
+    """0.3 kg mm either way of where the coarse mass went; each is within the fine mass's reach."""
+    rails, along = rails_of(COARSE + FINE, MASS), np.array([1e-3 / MASS, 0.0, 0.0])
+    there = allocate(rails, np.zeros(6), 1.26 * along)
+    for change in (-0.3, 0.3):
+        d = allocate(rails, there, (1.26 + change) * along)
+        np.testing.assert_allclose(d[:3], there[:3], atol=1e-12)
+        assert d[3] - there[3] == pytest.approx(change / 0.05 * 1e-3)
+
+
+def test_fine_masses_that_are_quick_do_alone_what_they_can_do_at_once():
+    """2 kg mm are 40 mm of 0.05 kg; in half a second they go 0.5 s x speed, or a coarse step."""
+    along = np.array([1e-3 / MASS, 0.0, 0.0])
+    quick = tuple(replace(mass, speed=0.02) for mass in FINE)
+    slow = tuple(replace(mass, speed=0.001) for mass in FINE)
+    still, wish = np.zeros(6), 0.4 * along  # 8 mm of the fine mass
+    alone = without_delay(rails_of(COARSE + quick, MASS), still, still, wish)
+    np.testing.assert_allclose(alone, [0, 0, 0, 8e-3, 0, 0], atol=1e-12)
+    shared = without_delay(rails_of(COARSE + slow, MASS), still, still, wish)
+    assert shared[0] == pytest.approx(8e-4)
+
+
+def test_coarse_masses_may_move_from_where_fine_ones_do_not_go_at_once():
+    """0.05 kg x 0.5 s x 20 mm/s = 0.5 kg mm; the fine from half a step of theirs on."""
+    quick = tuple(replace(mass, speed=0.02) for mass in FINE)
+    least = least_changes(rails_of(COARSE + quick, MASS)) * MASS
+    np.testing.assert_allclose(least[:3], 0.5e-3)
+    np.testing.assert_allclose(least[3:], 0.5 * 0.05 * FINE[0].resolution)
 
 
 def test_a_wish_that_trembles_does_not_shake_the_coarse_masses():

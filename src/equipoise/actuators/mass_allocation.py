@@ -14,10 +14,11 @@ finer one's, so that
   are at their ends again, which is the hysteresis that keeps it from chattering;
 - what no masses can reach is approached as nearly as possible, by the sum over the axes.
 
-Coarse masses that move only as far as they must leave fine ones on skew rails in a corner of what
-these can reach, where there may be no whole coarse step. Where an error is left, all is done once
-more with a fifth of the fine masses' travel kept back until the coarse ones are decided; the better
-counts.
+Coarse masses that move only as far as they must leave fine ones at an end, where the next small
+change would move a coarse one again, with its larger error; on skew rails they leave them in a
+corner of what these can reach, where there may be no whole coarse step. Where a coarse mass moves
+or an error is left, all is done once more with a fifth of the fine masses' travel kept back until
+the coarse ones are decided. It counts where it leaves less, or no more than rounding.
 
 Within what can be reached, the error along each rail is at most half a step of the finest masses
 where rails are at right angles, and the sum over the axes at most sum |q_i|_1 / 2 over three of the
@@ -47,6 +48,7 @@ FREE_STEP = 1e-3  # m, chosen: in which a mass without steps is counted
 WHOLE = 1e-6  # steps, chosen: nearer to a whole step than this is there
 NEAR = 1e-3  # units, chosen: rounding of what is allowed
 NEARBY = 1.0  # steps of the coarsest, chosen: half of one is needed, the rest keeps it still
+PROMPT = 0.5  # s, chosen: of travel, that feedback at periods of ten seconds and more bears
 KEPT = 0.2  # -, chosen: of the travel at each end
 
 
@@ -58,6 +60,7 @@ class Rails(NamedTuple):
     whole: Bools  # (k,) moves by whole steps
     low: Floats  # (k,) steps from home
     high: Floats  # (k,)
+    prompt: Floats  # (k,) steps in PROMPT
     cost: Floats  # (k,) per step
     order: Ints  # (k,) coarsest first
     tier: Ints  # (k,) 0: the finest
@@ -97,6 +100,7 @@ def rails_of(masses: Sequence[SlidingMass], total_mass: float) -> Rails:
     unit = float(length.min())
     tier = tiers_of(length * whole)
     cost = DEARER**tier * length / unit
+    speed = np.array([m.speed for m in masses])
     halves = 0.5 * abs(gain).sum(axis=1) / unit * (whole & (tier == 0))
     return Rails(
         gain / unit,
@@ -104,6 +108,7 @@ def rails_of(masses: Sequence[SlidingMass], total_mass: float) -> Rails:
         whole,
         np.where(whole, np.ceil(low - WHOLE), low),
         np.where(whole, np.floor(high + WHOLE), high),
+        PROMPT * speed / step,
         cost,
         np.argsort(-length * whole, kind="stable"),
         tier,
@@ -214,22 +219,40 @@ def allocate(rails: Rails, now: Floats, wanted: Vector3) -> Floats:
     steps = now / rails.step
     steps = np.clip(np.where(rails.whole, np.rint(steps), steps), rails.low, rails.high)
     there, missed = reached(rails, rails, steps, wanted / rails.unit)
-    if missed > rails.allowed:
+    coarse = bool(np.any((there != steps) & (rails.tier > 0)))
+    if coarse or missed > rails.allowed:
         again, still = reached(rails, with_ends_kept(rails), steps, wanted / rails.unit)
-        there = again if still < missed else there
+        there = again if still < missed or still <= rails.allowed else there
     return there * rails.step
+
+
+def at_once(rails: Rails) -> Floats:
+    """Return how many steps each mass goes before a coarser one is asked to."""
+    quantum = np.linalg.norm(rails.gain, axis=1)
+    coarsest = float(quantum[rails.tier == rails.tier.max()].min())
+    return np.maximum(rails.prompt, NEARBY * coarsest / quantum)
+
+
+def least_changes(rails: Rails) -> Floats:
+    """Return the change of the shift (m) from which on each mass may have to move.
+
+    The finest move from half a step on, the others from where finer ones do not go at once.
+    """
+    quantum = np.linalg.norm(rails.gain, axis=1)
+    first, there = 0.5 * quantum, at_once(rails) * quantum
+    for i in np.flatnonzero(rails.tier > 0):
+        first[i] = there[rails.tier < rails.tier[i]].min()
+    return first * rails.unit
 
 
 def without_delay(rails: Rails, now: Floats, here: Floats, wanted: Vector3) -> Floats:
     """Return displacements (m, from home) as ``allocate`` does, but soon reached from ``here`` (m).
 
-    Fine masses cross their travel in a time in which a feedback loop has long lost its phase: they
-    go no further from where they are than NEARBY steps of the coarsest, and those do the rest.
-    Where that would miss, the fine ones go as far as they must.
+    Slow fine masses cross their travel in a time in which a feedback loop has long lost its phase:
+    they go no further from where they are than in PROMPT, or than NEARBY steps of the coarsest, and
+    those do the rest. Where that would miss, the fine ones go as far as they must.
     """
-    quantum = np.linalg.norm(rails.gain, axis=1)
-    coarsest = rails.tier == rails.tier.max()
-    nearby = NEARBY * float(quantum[coarsest].min()) / quantum
+    coarsest, nearby = rails.tier == rails.tier.max(), at_once(rails)
     steps = np.clip(here / rails.step, rails.low, rails.high)
     low = np.where(coarsest, rails.low, np.maximum(rails.low, np.floor(steps - nearby)))
     high = np.where(coarsest, rails.high, np.minimum(rails.high, np.ceil(steps + nearby)))

@@ -191,6 +191,8 @@ class Testbed(Shown):
     attitude: AttitudeSensor | None = None
     gyro: Gyro | None = None
     disturbances: tuple[str, ...] = ()  # torque terms to consider
+    air_torque: float = 2e-6  # N m, one sd per axis, chosen: measured 4e-7 to 3e-6 at 2.7 kg
+    com_walk: float = 0.05e-6  # m, one sd after a minute, chosen: of warmth, 0.05 to 0.5 um
     truth: Truth | None = None
     assumed: Mapping[str, str] = field(default_factory=dict[str, str])  # key: why it is assumed
     source: str = ""  # where it was read

@@ -33,6 +33,7 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         Why.RAILS_ENDED,
         Why.OUT_OF_REACH,
         Why.MET_BY_ONE_CHANGE,
+        Why.MET_BY_CHANGES,
         Why.RUNS_SCATTER,
         Why.SOME_RUNS_FAILED,
     ),

@@ -137,4 +137,4 @@ def test_play_of_the_air_is_a_torque_on_the_platform_of_a_stated_sd():
     time, spent = ml.PLAY_TIME, 1 - np.exp(-30.0 / ml.PLAY_TIME)
     assert ahead.x[0] == pytest.approx(1e-6 * time * spent, rel=1e-4)
     assert ahead.x[ml.PLAY] == pytest.approx(1e-6 * (1 - spent))
-    assert ahead.P[ml.PLAY, ml.PLAY] == pytest.approx(ml.PLAY_SD**2 * (1 - (1 - spent) ** 2))
+    assert ahead.P[ml.PLAY, ml.PLAY] == pytest.approx(bed.air_torque**2 * (1 - (1 - spent) ** 2))

@@ -20,7 +20,7 @@ from equipoise.planning.sizing.budget import (
     within_reach,
 )
 from equipoise.planning.sizing.case import Case
-from equipoise.planning.sizing.environment import Surroundings
+from equipoise.planning.sizing.environment import Surroundings, air_in_measurement
 from equipoise.planning.sizing.limits import limit_sentence, verdict, worth_listing
 from equipoise.planning.sizing.measurement_bound import first_bound, later_bound
 from equipoise.planning.sizing.reachable_set import reach_of
@@ -268,3 +268,40 @@ def test_the_shortest_record_is_judged():
     assert [budget.first.duration for budget in found.budgets] == [60.0, 120.0]
     assert found.budget.torque == pytest.approx(usual().torque)
     assert not found.reached.startswith("The masses act")
+
+
+def nanosat(required, air=4e-7):
+    around = Surroundings(air=air)
+    return sized(case(read_preset("nanosat"), around=around), (60.0,), required)
+
+
+def test_changes_that_are_not_enough_alone_are_combined_in_the_order_of_what_limits():
+    """Stops of 0.3 um by 60 g limit 4 kg first; of light masses 1 g stops by 5 nm, 0.28 uN m."""
+    found = nanosat(1e-6, air=1e-6)
+    names = [change.name for change in found.together]
+    assert found.verdict.code == "met_by_changes"
+    assert names[0].startswith("a mass 60 times lighter")
+    assert "half the air's torque" in names
+    torques = [change.torque for change in found.together]
+    assert torques == sorted(torques, reverse=True)
+    assert torques[-2] > 1e-6 >= torques[-1]
+    assert all(name in found.verdict.sentence for name in names)
+
+
+def test_one_change_that_is_enough_is_combined_with_none():
+    found = nanosat(1e-6)
+    assert (found.verdict.code, found.together) == ("met_by_one_change", ())
+    assert nanosat(None).together == ()
+
+
+def test_air_is_taken_for_gravity_by_the_mean_over_a_measurement():
+    """All of it in a short record; sd^2 2 x 30 s / T in a long one."""
+    calm = Surroundings(air=4e-7)
+    assert air_in_measurement(calm, 0.01).torque == pytest.approx(4e-7, rel=1e-3)
+    assert air_in_measurement(calm, 30e4).torque == pytest.approx(4e-7 * (2e-4) ** 0.5, rel=1e-3)
+    rng, decay = np.random.default_rng(0), np.exp(-1.0 / 30.0)
+    torque, total = 4e-7 * rng.normal(size=20_000), np.zeros(20_000)
+    for _ in range(60):
+        total += torque / 60
+        torque = decay * torque + 4e-7 * np.sqrt(1 - decay**2) * rng.normal(size=20_000)
+    assert air_in_measurement(calm, 60.0).torque == pytest.approx(total.std(), rel=0.02)

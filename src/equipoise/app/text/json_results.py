@@ -246,7 +246,7 @@ DESIGN = document(
     *fields("masses=steps", many(MASS_STEP), "found"),
     *fields("measurements=budgets", many(LENGTH), "found"),
     *fields("budget=budget.lines", many(CONTRIBUTION), "found"),
-    *fields("better", many(BETTER), "found"),
+    *fields("better together", many(BETTER), "found"),
     *fields("limit", TEXT, "found"),
     *fields("not_stated", TEXTS),
     *fields("cautions", many(CAUTION)),

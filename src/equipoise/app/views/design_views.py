@@ -54,6 +54,7 @@ def tables_of(found: Sizing) -> Blocks:
         measurement_table(found.budgets, found.case.testbed.body.inertia_P),
         budget_table(found),
         better_table(found),
+        *together_table(found),
     )
 
 
@@ -200,6 +201,15 @@ def better_table(found: Sizing) -> Table:
     now = f"{plain(found.budget.torque / UN_M)} now"
     columns = (Column("improvement"), number(f"residual ({now})", "uN m"), number("within reach"))
     return table("Improvements, most effective first", columns, rows)
+
+
+def together_table(found: Sizing) -> Blocks:
+    """Return what changes leave that are made one after the other, where one is not enough."""
+    rows = [(b.name, plain(b.torque / UN_M)) for b in found.together]
+    columns = (Column("improvement"), number("residual then", "uN m"))
+    return (table("Improvements together, in the order of what limits", columns, rows),) * bool(
+        rows
+    )
 
 
 def uncounted(case: Case) -> tuple[str, ...]:

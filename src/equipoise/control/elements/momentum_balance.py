@@ -17,8 +17,9 @@ is weighted as if that error lasted for SAME_TURN, so that mainly samples at res
 effect during a turn is not lost, since L carries it to the next rest. Samples during mass travel
 are rejected: the momentum of the masses is not known.
 
-A move leaves an error: the accuracy of each mass that may have moved, one whose own step shifts by
-less than twice as much. r walks by CREEP, less where drift is a term; c are constants.
+A move leaves an error: the accuracy of each mass that may have moved, a coarse one from where finer
+ones do not go at once (``mass_allocation.least_changes``). The sd of tau and the walk of r are the
+testbed's; r walks less where drift is a term. c are constants.
 
 (Wheel momentum build-up: Hatcher and Young 1968 with wheels for jets.)
 
@@ -30,6 +31,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.mass_allocation import least_changes, rails_of
 from equipoise.control.law import Sample
 from equipoise.dynamics.regressor import TORQUE, WIDTH, torque_columns
 from equipoise.dynamics.sag_trim import sag_matrix
@@ -39,13 +41,13 @@ from equipoise.maths.linalg import cross, skew
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.model.torque_terms import GROUPS, TERMS, typical_sizes
+from equipoise.model.units import MINUTE
 
 L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 
-PLAY_SD, PLAY_TIME = 2e-6, 30.0  # N m, s, chosen: measured 4e-7 to 3e-6 at 2.7 kg
+PLAY_TIME = 30.0  # s, chosen: currents of air in a room
 BIAS_SD = 1e-4  # rad/s, chosen: a camera of 0.2 deg and 5 Hz leaves so much after ten seconds
-CREEP = 0.05e-6 / 60**0.5  # m/sqrt(s), chosen: thermal walk of 0.05 um/sqrt(min)
-LEFT = 0.2  # of that, chosen: the rest where a constant drift is a term of its own
+LEFT = 0.2  # of that random walk, chosen: the rest where a constant drift is a term of its own
 SAME_TURN = 10.0  # s, chosen: as long as a turn lasts, in which an error of J w keeps its sign
 STANDS = 1e-10  # m, chosen: less is no travel
 
@@ -59,9 +61,11 @@ class Book(NamedTuple):
     gyro_sd: float  # rad/s sqrt(s): one sd of a mean over a second
     momentum_sd: float  # N m s, of one sample
     creep: float  # m/sqrt(s), by which r walks
+    play: float  # N m, one sd of the torque of air and bearing
     terms: tuple[str, ...]
     columns: tuple[int, ...]  # of the regressor, of these terms
     masses: tuple[SlidingMass, ...]
+    least: Floats  # (k,) m, changes of the shift from which on each may move
 
 
 class Ledger(NamedTuple):
@@ -89,10 +93,14 @@ def book_of(testbed: Testbed) -> Book:
         testbed.inertia_sd,
         testbed.gyro.noise / testbed.gyro.rate**0.5,
         max([*quiet, 1e-9]),
-        CREEP * (LEFT if any(term.startswith("drift") for term in terms) else 1.0),
+        testbed.com_walk
+        / MINUTE**0.5
+        * (LEFT if any(term.startswith("drift") for term in terms) else 1.0),
+        testbed.air_torque,
         terms,
         tuple(TORQUE + TERMS.index(term) for term in terms),
         testbed.masses,
+        least_changes(rails_of(testbed.masses, testbed.body.mass)),
     )
 
 
@@ -119,7 +127,7 @@ def opened(testbed: Testbed, book: Book, sample: Sample) -> Ledger:
     """Return the estimate at the first sample, with the testbed's nominal values as prior."""
     priors = typical_sizes(book.terms)
     sd = np.concatenate(
-        [np.full(3, 1.0), np.full(3, PLAY_SD), np.full(3, BIAS_SD), testbed.com_sd, priors]
+        [np.full(3, 1.0), np.full(3, book.play), np.full(3, BIAS_SD), testbed.com_sd, priors]
     )
     x = np.zeros(len(sd))
     R = to_matrix(sample.q)
@@ -132,8 +140,8 @@ def opened(testbed: Testbed, book: Book, sample: Sample) -> Ledger:
 def stop_variance(change: Vector3, book: Book) -> Vector3:
     """Return the variance (m^2) that a change of the shift (m) leaves, per axis."""
     size, variance = float(np.linalg.norm(change)), np.zeros(3)
-    for mass in book.masses:
-        if size > 0.5 * mass.mass * mass.resolution / book.mass:
+    for mass, least in zip(book.masses, book.least, strict=True):
+        if size > least:
             variance += (mass.mass * mass.accuracy / book.mass * mass.axis) ** 2
     return variance
 
@@ -152,7 +160,7 @@ def predicted(ledger: Ledger, sample: Sample, book: Book) -> Ledger:
     x[:3] += mean[:, -1]
     P = F @ ledger.P @ F.T
     play = np.arange(PLAY, BIAS)
-    P[play, play] += PLAY_SD**2 * (1 - stay**2)
+    P[play, play] += book.play**2 * (1 - stay**2)
     com = np.arange(COM, TERM)
     P[com, com] += book.creep**2 * dt
     return ledger._replace(x=x, P=P, rows=rows, R=R, shift=sample.shift, t=sample.t)

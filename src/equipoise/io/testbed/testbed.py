@@ -98,9 +98,16 @@ class Sensors(Table):
 
 
 class Disturbance(Table):
-    """Which torques to consider beside gravity."""
+    """Which torques to consider beside gravity, and how large two that vary at random are."""
 
     consider: Annotated[list[str], Holds("disturbances")] = Field(default=[])
+    air_torque_N_m: Positive = Field(
+        default=2e-6, description="torque of air and bearing, standard deviation per axis"
+    )
+    com_walk_um: Positive = Field(
+        default=0.05,
+        description="random walk of the centre of mass, standard deviation after a minute",
+    )
 
 
 class TestbedFile(RecordTable):

@@ -134,7 +134,12 @@ class VerdictReason(Code):
         "met_by_one_change",
         f"{MISSED} {{expected:uN m plain}} uN m are expected; sufficient would be: {{choices}}.",
     )
+    MET_BY_CHANGES = (
+        "met_by_changes",
+        f"{MISSED} {{expected:uN m plain}} uN m are expected; sufficient together would be: "
+        "{choices}.",
+    )
     MET_BY_NO_CHANGE = (
         "met_by_no_change",
-        f"{MISSED} {{expected:uN m plain}} uN m are expected; no single change is sufficient.",
+        f"{MISSED} {{expected:uN m plain}} uN m are expected; no change found is sufficient.",
     )

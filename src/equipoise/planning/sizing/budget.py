@@ -31,7 +31,7 @@ import scipy
 
 from equipoise.model.arrays import Bools, Matrix3, Series, Series3
 from equipoise.planning.sizing.case import Case
-from equipoise.planning.sizing.environment import surrounding_lines
+from equipoise.planning.sizing.environment import air_in_measurement, surrounding_lines
 from equipoise.planning.sizing.expected_torque import REQUESTED, TESTBED, Line, expected_torque
 from equipoise.planning.sizing.measurement_bound import MeasurementBound, first_bound, later_bound
 from equipoise.planning.sizing.move_error import Left, Standing, at_home, move
@@ -80,7 +80,8 @@ def budget_of(case: Case) -> Budget:
         offset_line(case, "backlash", "Backlash of the masses", mean_square(left.backlash)),
         offset_line(case, "rails", "Misalignment of the rails", mean_square(left.rails)),
     ]  # fmt: skip
-    others = [target_line(case), *surrounding_lines(testbed, case.around, case.tilt)]
+    around = surrounding_lines(testbed, case.around, case.tilt)
+    others = [target_line(case), air_in_measurement(case.around, case.measurement_time), *around]
     there = [line for line in (*of_offsets, *others) if line.torque > 0]
     offsets = expected_torque(testbed, mean_square(done.standing.error), case.tilt)
     torque = float(np.linalg.norm([offsets, *(line.torque for line in others)]))

@@ -6,7 +6,8 @@
     buoyancy      |dr| = x rho V l / m       air that V displaces at a lever l grows denser by x
     Earth         3 (g / R) n x J n          gradient of gravity, n along it
                   |J w| Omega                gyroscopic, at a rate w; the greatest moment counts
-    air           as stated
+    air           as stated, sd s; and the mean of it over a measurement of T, which is taken for
+                  gravity's:  s^2 2 x (1 - x (1 - exp(-1/x))),  x = 30 s / T
 
 g / (2 pi f)^2 is how far a mass sinks that swings at f on its spring; s is the share of it that the
 centre of mass takes part in. Shifts dr may have any direction. Zero terms are left out.
@@ -34,6 +35,7 @@ from equipoise.planning.sizing.expected_torque import (
 
 EARTH_RADIUS = 6.371e6  # m, mean
 EARTH_RATE = 7.292e-5  # rad/s
+AIR_TIME = 30.0  # s, chosen: in which the air's torque forgets, currents in a room
 AIR_DENSITY = 1.2  # kg/m^3, at 20 C and 1013 hPa
 
 
@@ -83,6 +85,18 @@ def surrounding_lines(testbed: Testbed, around: Surroundings, tilt: float) -> It
     yield Line("Earth's rate", "The Earth's rate", turning, None, REQUESTED)
     air = ASSUMED if around.air == PLAIN.air else REQUESTED
     yield Line("air", "Air of room and bearing", around.air, None, air)
+
+
+def air_in_measurement(around: Surroundings, duration: float) -> Line:
+    """Return the line of air that a measurement of ``duration`` (s) takes for gravity.
+
+    The mean over T of an Ornstein-Uhlenbeck process (``momentum_balance``), as torque.
+    """
+    x = AIR_TIME / duration
+    share = 2 * x * (1 - x * (1 - np.exp(-1 / x)))
+    taken = around.air * float(np.sqrt(share))
+    basis = ASSUMED if around.air == PLAIN.air else REQUESTED
+    return Line("measured air", "Air taken for gravity in the measurement", taken, None, basis)
 
 
 def basis_of(around: Surroundings, *names: str) -> str:

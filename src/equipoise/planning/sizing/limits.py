@@ -85,7 +85,12 @@ def direction(v: Vector3) -> str:
     return "(" + ", ".join(f"{round(float(x), 3) + 0.0:g}" for x in positive) + ")"
 
 
-def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]) -> Verdict:
+def verdict(
+    budget: Budget,
+    required: float | None,
+    better: tuple[Bettered, ...],
+    together: tuple[Bettered, ...] = (),
+) -> Verdict:
     """Say whether the required torque (N m) can be met, and if not, what would change that."""
     numbers = {"expected": budget.torque, "within": budget.within}
     if required is None:
@@ -97,6 +102,8 @@ def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]
     enough = [change.name for change in better if change.torque <= required]
     if answer.code is DESIGN.refuted and enough:
         return Verdict(one_reason(Why.MET_BY_ONE_CHANGE, *enough, **numbers))
+    if answer.code is DESIGN.refuted and together and together[-1].torque <= required:
+        return Verdict(one_reason(Why.MET_BY_CHANGES, *(b.name for b in together), **numbers))
     return Verdict((answer,))
 
 

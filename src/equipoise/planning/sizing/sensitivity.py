@@ -2,7 +2,7 @@
 
 Each change makes one thing half as bad, or adds one that is missing, and the whole budget is
 computed anew, with the measurement. Half is chosen so that changes compare; their cost is for the
-reader to judge.
+reader to judge. Where one change is not enough, they are combined (``combined_changes``).
 """
 
 from collections.abc import Iterable, Iterator
@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.mass_allocation import rails_of
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass
 from equipoise.model.vector_sensors import Accelerometer, Magnetometer, SunSensor
 from equipoise.planning.sizing.budget import Budget
@@ -20,6 +21,7 @@ VectorSensor = Accelerometer | SunSensor | Magnetometer
 Sensor = AttitudeSensor | Gyro | VectorSensor
 
 HALF = 0.5
+LIGHTER = 60.0  # chosen: a fine mass is 1 g beside 60 g, and makes up for stops of 0.3 mm
 MASS_LENGTHS = {"steps": "resolution", "stops": "accuracy", "backlash": "backlash"}  # by line
 BETTER_MASSES = {"steps": "steps half as long", "stops": "masses with half the positioning error",
                  "backlash": "half the backlash"}  # fmt: skip
@@ -66,7 +68,18 @@ def mass_changes(case: Case) -> Iterator[Change]:
         yield Change("rails twice as true", "rails", replace(case, rail_lean=HALF * case.rail_lean))
     longer = [replace(m, travel=(2 * m.travel[0], 2 * m.travel[1])) for m in case.testbed.masses]
     yield Change("twice the travel", "out of reach", with_masses(case, longer))
+    fine = f"a mass {LIGHTER:g} times lighter beside each of the finest"
+    yield Change(fine, "stops", with_fine_masses(case))
     yield Change("one move more", "stops", replace(case, moves=case.moves + 1))
+
+
+def with_fine_masses(case: Case) -> Case:
+    """Return the case with a light mass beside each of the finest, on a rail like its own."""
+    masses = case.testbed.masses
+    tiers = rails_of(masses, case.testbed.body.mass).tier
+    finest = [mass for mass, tier in zip(masses, tiers, strict=True) if tier == 0]
+    light = (replace(m, name=f"fine_{m.name}", mass=m.mass / LIGHTER) for m in finest)
+    return with_masses(case, (*masses, *light))
 
 
 def sensor_changes(case: Case) -> Iterator[Change]:

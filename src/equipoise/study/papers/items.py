@@ -128,7 +128,7 @@ ITEMS = (
     Item("R35", "section 4", "laws on hardware: wheels, gyros, coils, jets",
          "tests/statistical/test_laws.py"),
     Item("R36", "introduction", "1e-6 N m for a satellite in orbit",
-         "docs/decisions/0040-a-millionth-of-a-newton-metre.md"),
+         "tests/statistical/test_one_micro.py"),
     Item("L1", "1", "platform with control moment gyros",
          "tests/actuators/test_control_moment_gyros.py"),
     Item("L2", "2", "its regulator", "tests/control/elements/test_attitude_pid.py"),
