@@ -71,5 +71,6 @@ def returned(tmp_path_factory) -> Returned:
         "inertia": eq.inertia(parts_file(path.with_name("parts.toml"))),
     }
     results["Estimate"] = results["identify"].estimate
+    results["keep"] = eq.keep(eq.SimulatedBench(eq.preset("nanosat"), seed=2), 130.0)
     results["ledger"] = eq.ledger(recording, results["assess"].estimate, bed)
     return Returned(path, results)

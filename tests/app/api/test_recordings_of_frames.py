@@ -130,7 +130,7 @@ def everything() -> Recording:
         momentum=rows(3, 0.03), torque=rows(3, 0.0), field=rows(3, 0.04),
         device_names=("wheel:x", "gimbal:a_b", "dipole:x", "jet:x"), devices=rows(4, 0.05),
         temperature=rows(1, 0.0), lamp=rows(1, 0.0), accelerometer=rows(3, 0.06),
-        sun=rows(3, 0.07),
+        sun=rows(3, 0.07), position=rows(2, 0.08),
     )  # fmt: skip
 
 

@@ -22,7 +22,7 @@ MOST_LINES = 12
 WIDEST = 1000  # letters of a line; the longest holds one sentence
 KINDS = ("Recording", "Testbed", "MassProperties", "Estimate", "identify", "assess", "observe",
          "design", "balance", "plan", "compare", "methods", "laws",
-         "identify several", "inertia", "ledger")  # fmt: skip
+         "identify several", "inertia", "ledger", "keep")  # fmt: skip
 DRAWN = ("Recording", "MassProperties", "Estimate", "identify", "assess", "design", "balance",
          "identify several", "inertia", "ledger")  # fmt: skip
 

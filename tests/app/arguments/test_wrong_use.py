@@ -15,6 +15,7 @@ TESTBEDS = {
     c.__name__: inspect.signature(c).parameters.get("testbed") for cs in GROUPS.values() for c in cs
 }
 NEEDED = {name: p for name, p in TESTBEDS.items() if p is not None and p.default is p.empty}
+del NEEDED["generate"]  # it takes no recording, and needs three options beside the testbed
 BY_OPTION = [name for name, p in NEEDED.items() if p.kind == p.KEYWORD_ONLY]
 BY_PLACE = [name for name in NEEDED if name not in BY_OPTION]
 

@@ -52,7 +52,7 @@ def test_what_is_written_is_read_again(tmp_path, kind):
     for name in CHANNELS:
         ours, theirs = getattr(again, name), getattr(record(), name)
         np.testing.assert_array_equal(ours.t, theirs.t)
-        rounded = 4 * (name in ("masses", "field", "devices") and kind.name != "mcap")
+        rounded = 4 * (name in ("masses", "field", "devices", "position") and kind.name != "mcap")
         np.testing.assert_array_max_ulp(ours.values, theirs.values, maxulp=rounded)
     assert len(again.sha256) == 64
 

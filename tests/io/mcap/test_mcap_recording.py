@@ -85,6 +85,7 @@ def test_times_and_values_come_back_to_the_last_bit(tmp_path):
         momentum=Samples(t, values * 2), torque=Samples(t, values * 3), field=Samples(t, -values),
         temperature=Samples(t[:3], values[:3, :1]), lamp=Samples(t[:2], values[:2, :1]),
         accelerometer=Samples(t, values * 4), sun=Samples(t[1:], values[1:]),
+        position=Samples(t, values[:, :2] * 5),
     )  # fmt: skip
     write_recording(first, tmp_path / "run.mcap")
     again = read_recording(tmp_path / "run.mcap")

@@ -171,7 +171,8 @@ def stood(knowledge: Knowledge, testbed: Testbed) -> Floats:
     """Return by how much each mass stands off where it was sent (m), as far as it is known."""
     estimate = knowledge.estimate
     last = [stops_of(estimate, name)[-1:] for name in testbed.mass_names]
-    return np.array([sum(estimate.parameters[k].value for k in found) for found in last])
+    errors = (sum(estimate.parameters[k].value for k in found) for found in last)
+    return np.array([*errors], dtype=np.float64)
 
 
 def stops_of(estimate: Estimate, mass: str) -> list[int]:
