@@ -51,7 +51,7 @@ CHANGES = ("os.mkdir", "os.rename", "os.remove", "os.rmdir", "sqlite3.connect")
 
 
 @app.command
-def keep(count: int, /):
+def archive(count: int, /):
     '''Keep so many runs.'''
     from equipoise.app.logbook.run_folder import own_folder
     from equipoise.io.files.atomic_file import write_folder

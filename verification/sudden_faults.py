@@ -196,7 +196,7 @@ IN_FOLDER = {
         ("calibrate", "run.csv", "--testbed", "my.toml", "--hold", "inertia_P_zz", "--write",
          "my.toml"), 8.0, 12, to_calibrate, of_calibration,
     ),
-    "keep": Action(("keep", str(RUNS)), 0.8, 800, nothing, of_runs),
+    "archive": Action(("archive", str(RUNS)), 0.8, 800, nothing, of_runs),
     "logbook": Action(("logbook", "runs", "--export", "runs.csv"), 1.5, 9, to_index, of_logbook),
 }  # fmt: skip
 ACTIONS = ON_BENCH | IN_FOLDER

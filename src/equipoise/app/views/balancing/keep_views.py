@@ -7,14 +7,18 @@ from equipoise.app.figures.catalogue import Picture
 from equipoise.app.report.build import steps_section
 from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
 from equipoise.app.runs.keeping import Keeping
-from equipoise.app.text.blocks import Blocks, Section, paragraphs
+from equipoise.app.text.blocks import Blocks, Row, Section, Table, number, paragraphs, table
 from equipoise.app.text.json_document import KEEP
 from equipoise.app.text.json_shape import View
-from equipoise.app.text.numbers import fixed
+from equipoise.app.text.numbers import fixed, with_sd
 from equipoise.app.text.run_blocks import verdict_blocks
-from equipoise.model.units import MM, UM
+from equipoise.model.arrays import Vector3
+from equipoise.model.estimate import COM
+from equipoise.model.units import MINUTE, MM, UM
 
 MOST = 60  # steps in a report, chosen: two pages
+ROWS = 12  # of the table, chosen: it fits beside the verdict
+TITLE = "Centre of mass as the masses stood"
 
 
 def output_of(done: Keeping) -> Output:
@@ -26,8 +30,25 @@ def output_of(done: Keeping) -> Output:
 
 def blocks(done: Keeping) -> Blocks:
     """Return what masses did, and the verdict; steps were shown as they came."""
-    moved = f"{done.moves} moves of the masses while holding, {done.travel / MM:.3g} mm in all"
-    return (*paragraphs(moved), *verdict_blocks(done.verdict))
+    moves = f"{done.moves} move{'s' * (done.moves != 1)}"
+    moved = f"{moves} of the masses while holding, {done.travel / MM:.3g} mm in all"
+    shown = (course_table(done),) if len(done.course.t) else ()
+    return (*shown, *paragraphs(moved), *verdict_blocks(done.verdict))
+
+
+def course_table(done: Keeping) -> Table:
+    """Return where the centre of mass stood, at some of the reports."""
+    course, keep = done.course, slice(None, None, -(-len(done.course.t) // ROWS))
+    columns = (number("time", "min"), *(number(name, "um") for name in COM))
+    every = zip(course.t[keep].tolist(), course.values[keep], course.sd[keep], strict=True)
+    rows = ((fixed(t / MINUTE, 1), *com_cells(com, sd)) for t, com, sd in every)
+    return table(TITLE, columns, map(Row, rows))
+
+
+def com_cells(com: Vector3, sd: Vector3) -> list[str]:
+    """Return the texts of a centre of mass (m) with its sd, um."""
+    pairs = zip((com / UM).tolist(), (sd / UM).tolist(), strict=True)
+    return [" ± ".join(with_sd(*pair)) for pair in pairs]
 
 
 def document(done: Keeping) -> View:
