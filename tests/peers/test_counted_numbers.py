@@ -18,8 +18,9 @@ A, B, SIX = (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), (2.0, 3.0, 4.0, 0.1, 0.2, 0.3)
         ("cross", lambda: cross(A, B), 9),  # six products, three differences
         ("times", lambda: times(SIX, A), 15),  # nine products, six sums
         ("invert", lambda: invert(SIX), 30),  # 9 of minors, 6 of 1 / det, 3 and 12 of elements
-        # four numbers of seven; sine 6 and a root of them; 2 atan2 / sine; three products
-        ("turn", lambda: turn(np.array([1.0, 0, 0, 0]), np.array([0.8, 0.6, 0, 0])), 28 + 6 + 6),
+        # four numbers of seven; sine 6 and a root of them; 2 atan2 / sine; three products; what
+        # comes from the mathematical library is a number that is not watched: 2 of it less
+        ("turn", lambda: turn(np.array([1.0, 0, 0, 0]), np.array([0.8, 0.6, 0, 0])), 28 + 6 + 4),
     ],
 )
 def test_operations_are_those_counted_by_hand(name, call, expected):

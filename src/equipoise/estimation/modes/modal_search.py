@@ -18,6 +18,7 @@ from equipoise.estimation.output_error.solution import cost_of
 from equipoise.estimation.search_budget import Stage
 
 NEAR = 0.2  # of a line's frequency, chosen: a mode that ends elsewhere explains something else
+BROAD = 0.1  # damping, chosen: what is damped more leaves no line; a late log looks so
 MOST = 2  # modes, chosen: a third is noise that has a colour
 
 
@@ -29,8 +30,9 @@ def another(model: RecordModel) -> RecordModel:
     fits = [fit_modes(model, [*model.modes, guess]) for guess in guesses(model, line)]
     found = min(fits, key=lambda fit: fit.chi_square).model
     gained = 2.0 * (cost_of(model.fitted) - cost_of(found.fitted))
-    stayed = abs(found.modes[-1].frequency / line.frequency - 1.0) < NEAR
-    return found if stayed and gained > 2.0 * line.threshold else model
+    new = found.modes[-1]
+    is_line = abs(new.frequency / line.frequency - 1.0) < NEAR and new.damping < BROAD
+    return found if is_line and gained > 2.0 * line.threshold else model
 
 
 def with_modes(model: RecordModel) -> RecordModel:
