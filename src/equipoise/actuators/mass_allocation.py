@@ -16,9 +16,9 @@ finer one's, so that
 
 Coarse masses that move only as far as they must leave fine ones at an end, where the next small
 change would move a coarse one again, with its larger error; on skew rails they leave them in a
-corner of what these can reach, where there may be no whole coarse step. Where a coarse mass moves
-or an error is left, all is done once more with a fifth of the fine masses' travel kept back until
-the coarse ones are decided. It counts where it leaves less, or no more than rounding.
+corner of what these can reach, where there may be no whole coarse step. Where a coarse mass moves,
+all is done once more with a fifth of the travel of the fine ones beside it kept back until the
+coarse ones are decided; where an error is left, of all fine ones. It counts where it leaves less, or no more than rounding.
 
 Within what can be reached, the error along each rail is at most half a step of the finest masses
 where rails are at right angles, and the sum over the axes at most sum |q_i|_1 / 2 over three of the
@@ -49,6 +49,7 @@ WHOLE = 1e-6  # steps, chosen: nearer to a whole step than this is there
 NEAR = 1e-3  # units, chosen: rounding of what is allowed
 NEARBY = 1.0  # steps of the coarsest, chosen: half of one is needed, the rest keeps it still
 PROMPT = 0.5  # s, chosen: of travel, that feedback at periods of ten seconds and more bears
+ONE_WAY = 0.5  # cosine, chosen: rails that share a direction
 KEPT = 0.2  # -, chosen: of the travel at each end
 
 
@@ -195,9 +196,10 @@ def _allocate(rails: Rails, eased: Rails, now: Floats, rest: Floats, out: Floats
     out[:] = at.chosen
 
 
-def with_ends_kept(rails: Rails) -> Rails:
-    """Return the rails with both ends of the travel of all but the coarsest tier kept back."""
-    kept = np.where(rails.tier < rails.tier.max(), KEPT * (rails.high - rails.low), 0.0)
+def with_ends_kept(rails: Rails, which: Bools) -> Rails:
+    """Return the rails with both ends of travel kept back, of some below the coarsest tier."""
+    finer = which & (rails.tier < rails.tier.max())
+    kept = np.where(finer, KEPT * (rails.high - rails.low), 0.0)
     kept = np.where(rails.whole, np.floor(kept), kept)
     return rails._replace(low=rails.low + kept, high=rails.high - kept)
 
@@ -219,11 +221,18 @@ def allocate(rails: Rails, now: Floats, wanted: Vector3) -> Floats:
     steps = now / rails.step
     steps = np.clip(np.where(rails.whole, np.rint(steps), steps), rails.low, rails.high)
     there, missed = reached(rails, rails, steps, wanted / rails.unit)
-    coarse = bool(np.any((there != steps) & (rails.tier > 0)))
-    if coarse or missed > rails.allowed:
-        again, still = reached(rails, with_ends_kept(rails), steps, wanted / rails.unit)
+    coarse = (there != steps) & (rails.tier > 0)
+    which = beside(rails, coarse) if missed <= rails.allowed else np.ones(len(steps), bool)
+    if coarse.any() or missed > rails.allowed:
+        again, still = reached(rails, with_ends_kept(rails, which), steps, wanted / rails.unit)
         there = again if still < missed or still <= rails.allowed else there
     return there * rails.step
+
+
+def beside(rails: Rails, moved: Bools) -> Bools:
+    """Return which masses shift the centre of mass along about the same line as one that moved."""
+    along = rails.gain / np.linalg.norm(rails.gain, axis=1, keepdims=True)
+    return np.any(np.abs(along @ along[moved].T) > ONE_WAY, axis=1)
 
 
 def at_once(rails: Rails) -> Floats:
