@@ -13,6 +13,7 @@ from equipoise.model.estimate import COM, END, INERTIA, Course, Estimate, Parame
 from equipoise.model.outcome import Outcome, outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.model.reasons.reason import Reason
+from equipoise.model.recording import Recording
 from equipoise.model.units import UM
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.study.compare_methods import compared_methods
@@ -38,7 +39,7 @@ TRUTH = dict.fromkeys((*COM, *END, *INERTIA), 0.0)
 
 def record(truth=None, testbed=BED, recording=None, options=None, bound=None):
     return JudgedRecord(
-        recording, testbed, options or Options(), TRUTH | (truth or {}), bound or {}
+        recording or Recording(), testbed, options or Options(), TRUTH | (truth or {}), bound or {}
     )
 
 

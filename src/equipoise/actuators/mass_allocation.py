@@ -18,7 +18,8 @@ Coarse masses that move only as far as they must leave fine ones at an end, wher
 change would move a coarse one again, with its larger error; on skew rails they leave them in a
 corner of what these can reach, where there may be no whole coarse step. Where a coarse mass moves,
 all is done once more with a fifth of the travel of the fine ones beside it kept back until the
-coarse ones are decided; where an error is left, of all fine ones. It counts where it leaves less, or no more than rounding.
+coarse ones are decided; where an error is left, of all fine ones. It counts where it leaves less,
+or no more than rounding.
 
 Within what can be reached, the error along each rail is at most half a step of the finest masses
 where rails are at right angles, and the sum over the axes at most sum |q_i|_1 / 2 over three of the
@@ -196,12 +197,20 @@ def _allocate(rails: Rails, eased: Rails, now: Floats, rest: Floats, out: Floats
     out[:] = at.chosen
 
 
-def with_ends_kept(rails: Rails, which: Bools) -> Rails:
-    """Return the rails with both ends of travel kept back, of some below the coarsest tier."""
+def with_ends_kept(rails: Rails, travel: Rails, which: Bools) -> Rails:
+    """Return the rails with both ends of travel kept back, of some below the coarsest tier.
+
+    ``travel`` are the rails as long as they are, of which ``rails`` may be parts. A part that lies
+    in an end is left as it is.
+    """
     finer = which & (rails.tier < rails.tier.max())
-    kept = np.where(finer, KEPT * (rails.high - rails.low), 0.0)
+    kept = np.where(finer, KEPT * (travel.high - travel.low), 0.0)
     kept = np.where(rails.whole, np.floor(kept), kept)
-    return rails._replace(low=rails.low + kept, high=rails.high - kept)
+    low = np.maximum(rails.low, travel.low + kept)
+    high = np.minimum(rails.high, travel.high - kept)
+    within = low <= high
+    return rails._replace(low=np.where(within, low, rails.low),
+                          high=np.where(within, high, rails.high))  # fmt: skip
 
 
 def reached(rails: Rails, eased: Rails, steps: Floats, wanted: Vector3) -> tuple[Floats, float]:
@@ -218,13 +227,20 @@ def allocate(rails: Rails, now: Floats, wanted: Vector3) -> Floats:
     Counted from home, not from where the masses are ``now`` (m, taken at the nearest step); see
     ``com_shift`` for what is reached.
     """
+    return _allocated(rails, rails, now, wanted)
+
+
+def _allocated(rails: Rails, travel: Rails, now: Floats, wanted: Vector3) -> Floats:
+    """Return displacements (m) within ``rails``, which are parts of ``travel``."""
     steps = now / rails.step
     steps = np.clip(np.where(rails.whole, np.rint(steps), steps), rails.low, rails.high)
     there, missed = reached(rails, rails, steps, wanted / rails.unit)
     coarse = (there != steps) & (rails.tier > 0)
     which = beside(rails, coarse) if missed <= rails.allowed else np.ones(len(steps), bool)
     if coarse.any() or missed > rails.allowed:
-        again, still = reached(rails, with_ends_kept(rails, which), steps, wanted / rails.unit)
+        again, still = reached(
+            rails, with_ends_kept(rails, travel, which), steps, wanted / rails.unit
+        )
         there = again if still < missed or still <= rails.allowed else there
     return there * rails.step
 
@@ -265,6 +281,6 @@ def without_delay(rails: Rails, now: Floats, here: Floats, wanted: Vector3) -> F
     steps = np.clip(here / rails.step, rails.low, rails.high)
     low = np.where(coarsest, rails.low, np.maximum(rails.low, np.floor(steps - nearby)))
     high = np.where(coarsest, rails.high, np.minimum(rails.high, np.ceil(steps + nearby)))
-    near = allocate(rails._replace(low=low, high=high), now, wanted)
+    near = _allocated(rails._replace(low=low, high=high), rails, now, wanted)
     missed = float(abs(wanted / rails.unit - near / rails.step @ rails.gain).sum())
     return near if missed <= rails.allowed else allocate(rails, now, wanted)

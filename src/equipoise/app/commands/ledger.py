@@ -12,7 +12,7 @@ from equipoise.app.arguments.options import (
     Searching,
     Seeking,
 )
-from equipoise.app.console.terminal import busy
+from equipoise.app.console.terminal import announced, busy
 
 
 def ledger(
@@ -48,7 +48,7 @@ def ledger(
     from equipoise.app.arguments.checks import check_outputs
     from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
 
-    bed, of_fit = testbed_from(testbed), options_of(seeking)
+    bed, of_fit = announced(testbed_from(testbed)), options_of(seeking)
     check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
     with busy("identifying", announce=False):

@@ -19,10 +19,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
-from scipy.optimize import brentq
-from scipy.signal.windows import tukey
 
 from equipoise.estimation.output_error.problem import quickest_swing
 from equipoise.estimation.output_error.solution import Fitted
@@ -39,6 +37,7 @@ HIGHEST = 0.96  # chosen: of the Nyquist frequency
 FINER = 4  # chosen: frequencies for an independent one; between, heights are higher by chance
 LEVELS = 4  # chosen: the whole record, halves, quarters, eighths
 TAPER = 0.2  # of a record, chosen: both ends together
+ITERATIONS = 40  # of a map that shrinks errors by 2 / x
 FEWEST = 200  # rows, chosen: fewer have no band to compare with
 
 
@@ -67,7 +66,7 @@ def spectrum_of(t: Series1, left: Series3, period: float) -> Spectrum:
     """Return the windowed Fourier sums of rows; each counts at the nearest of even times."""
     slot: Ints = np.array((t - t[0]) / period + 0.5, dtype=np.int64)
     n = int(slot[-1]) + 1
-    grid, taper = np.zeros((n, 3)), np.asarray(tukey(n, TAPER), dtype=np.float64)
+    grid, taper = np.zeros((n, 3)), tapered(n)
     np.add.at(grid, slot, left * taper[slot][:, None])
     f = np.fft.rfftfreq(FINER * n, period).astype(np.float64, copy=False)
     return Spectrum(f, np.fft.rfft(grid, FINER * n, axis=0))
@@ -75,11 +74,16 @@ def spectrum_of(t: Series1, left: Series3, period: float) -> Spectrum:
 
 def threshold_for(frequencies: float) -> float:
     """Return the height that the greatest of so many independent ones exceeds by chance."""
+    x = 20.0
+    for _ in range(ITERATIONS):
+        x = float(np.log(frequencies / ALARM) + np.log1p(x + x * x / 2))
+    return x
 
-    def surplus(x: float) -> float:
-        return float(np.log(frequencies) + np.log1p(x + x * x / 2) - x - np.log(ALARM))
 
-    return float(brentq(surplus, 3.0, 200.0))
+def tapered(n: int) -> Series1:
+    """Return Tukey's window of n rows: a cosine over half of TAPER at each end."""
+    edge = np.minimum(np.arange(n), np.arange(n)[::-1]) / (0.5 * TAPER * (n - 1))
+    return 0.5 - 0.5 * np.cos(np.pi * np.minimum(edge, 1.0))
 
 
 def within(f: Series1, lowest: float, period: float) -> Bools:
@@ -102,7 +106,9 @@ def line_in(t: Series1, left: Series3, period: float, lowest: float, whole: int)
         return None
     f, sums = spectrum.f[sought], spectrum.sums[sought]
     power: Floats = np.sum(np.abs(sums) ** 2, axis=1)
-    level: Floats = median_filter(power, 2 * FINER * BAND + 1, mode="reflect") / MEDIAN
+    level: Floats = (
+        scipy.ndimage.median_filter(power, 2 * FINER * BAND + 1, mode="reflect") / MEDIAN
+    )
     height = power / level
     k = int(np.argmax(height))
     cross = np.real(np.outer(sums[k], np.conj(sums[k])))
