@@ -8,7 +8,6 @@ goes on and off warms it, which shifts it too.
 
 from dataclasses import dataclass, replace
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -161,6 +160,3 @@ def torque_by_moves(bench: ExperimentBench, seconds: float = 1.0) -> Array:
     down = np.array([matrix(q)[2] for q in bench.q[:kept]]) * -bench.testbed.gravity
     total = reaction + np.cross(since @ moment, down)
     return np.sqrt(np.mean(np.sum(total**2, axis=1).reshape(-1, n), axis=1))
-
-
-__all__ = ["STEP", "ExperimentBench", "Surroundings", "mujoco", "pointing", "torque_by_moves"]

@@ -13,7 +13,6 @@ from equipoise.model.step import Step
 from equipoise.procedure.balancing.hold import HoldOptions
 from equipoise.procedure.balancing.motion_budget import USUAL, MotionBudget
 from equipoise.procedure.balancing.schedule import Schedule, always_free
-from equipoise.procedure.steps.planned_move import by_name
 from equipoise.simulation.bench import SimulatedBench
 
 WEEK = 7 * 24 * 3600.0  # s
@@ -80,11 +79,11 @@ def keep(
     own = isinstance(platform, Bench)
     bed = platform.testbed if own else testbed_from(platform)
     start = None if resume is None else interrupted(Path(resume), bed)
-    standing = None
+    options, standing = options_for(goal, lasts, wanted), None
     if start is not None:
-        goal, lasts, standing = start.goal, start.left, by_name(bed, start.kept.displacement)
+        options, standing = start.options(wanted), start.standing(bed)
     if folder is not None:
         Path(folder).mkdir(parents=True, exist_ok=True)
     bench = platform if own else SimulatedBench(bed, checks.seed_of(seed), standing)
     place = None if folder is None else Path(folder)
-    return run(bench, Session(options_for(goal, lasts, wanted), start, place), on_step)
+    return run(bench, Session(options, start, place), on_step)

@@ -166,16 +166,15 @@ def _run(
 ) -> "Keeping":
     """Keep the simulated platform, or the real one, and show each step."""
     from equipoise.app.runs.balancing import Goal, Limits
-    from equipoise.app.runs.keeping import options_for, run
+    from equipoise.app.runs.keeping import run
     from equipoise.app.runs.terminal_balancing import at_terminal
     from equipoise.app.runs.terminal_waiting import show_step
-    from equipoise.procedure.steps.planned_move import by_name
     from equipoise.simulation.bench import SimulatedBench
 
-    start, options, standing = session.start, session.options, None
+    start, standing = session.start, None
     if start is not None:
-        session = replace(session, options=options_for(start.goal, start.left, options))
-        standing = by_name(bed, start.kept.displacement)
+        session = replace(session, options=start.options(session.options))
+        standing = start.standing(bed)
     shown, through = show_step if show else None, at_terminal(bed)
     if not on_bench.bench:
         return run(SimulatedBench(bed, seed, standing), session, shown, through)

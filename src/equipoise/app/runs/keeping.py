@@ -77,6 +77,14 @@ class Interrupted:
     left: float
     gap: float
 
+    def options(self, wanted: HoldOptions) -> HoldOptions:
+        """Return the options of the hold that goes on, with all else as it is wanted now."""
+        return options_for(self.goal, self.left, wanted)
+
+    def standing(self, testbed: Testbed) -> dict[str, float]:
+        """Return where each mass stood, m from home."""
+        return by_name(testbed, self.kept.displacement)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Session:

@@ -157,7 +157,7 @@ def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
 
 def begun(knowledge: Knowledge, testbed: Testbed, sag: Matrix3 | None = None) -> Held:
     """Return where a hold begins: at the estimate of balancing."""
-    state, params = first_posterior(knowledge, testbed), params_for(knowledge)
+    state, params = first_posterior(knowledge, testbed), params_for(knowledge.fitted.point.torque)
     if sag is not None:
         state = replace(state, com=lever(state.com, sag, testbed))
         params = replace(params, torque=with_sag(params.torque, sag))
@@ -189,7 +189,7 @@ def hold(
             found = one_reason(StepReason.COM_AT, **at(now.com, now.sd))
             estimate = estimate_at_end(track, testbed, shift)
             yield Step("estimate", bench.time, found, estimate=estimate)
-        held, steps, moved = acted(bench, held, options, lapse)
+        held, steps, moved = acted(bench, testbed, held, options, lapse)
         for claim in (now, moved or later):
             course = followed(course, claim, options)
         yield from (replace(step, recording=fresh) for step in steps)
@@ -228,13 +228,12 @@ def arrival(
 
 
 def acted(
-    bench: Bench, held: Held, options: HoldOptions, lapse: float
+    bench: Bench, testbed: Testbed, held: Held, options: HoldOptions, lapse: float
 ) -> tuple[Held, list[Step], Measured | None]:
     """Let masses do what they may: return the hold then, Steps, and the posterior to come.
 
-    The posterior comes of a move alone.
+    The posterior comes of a move alone; the masses of ``testbed`` are slowed to their budget.
     """
-    testbed = slowed(bench.testbed, options.motion)
     permission, reasons = options.schedule.at(bench.time)
     changed = permission is not held.granted
     steps = [Step("control", bench.time, reasons)] if changed else []
@@ -266,9 +265,8 @@ def halted(bench: Bench, held: Held, budget: MotionBudget) -> Held:
     return replace(held, aimed=steps)
 
 
-def params_for(knowledge: Knowledge) -> tracker.Params:
-    """Return the tracker's options: its state has the drift."""
-    torque = knowledge.fitted.point.torque
+def params_for(torque: Floats | None) -> tracker.Params:
+    """Return the tracker's options with known torque coefficients: its state has the drift."""
     return tracker.Params(torque=torque, com_walk=COM_WALK, drift_walk=DRIFT_WALK)
 
 

@@ -24,7 +24,7 @@ from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.balancing.hold import DRIFT_WALK, Held
+from equipoise.procedure.balancing.hold import DRIFT_WALK, Held, params_for
 from equipoise.procedure.balancing.hold_posterior import COM_WALK
 from equipoise.procedure.steps.sampler import last_row
 
@@ -69,10 +69,9 @@ def resumed(bench: Bench, kept: Kept, gap: float) -> Held:
     covariance = state.covariance.copy()
     covariance[np.ix_(ROWS, ROWS)] = kept.covariance
     state = replace(state, drift=kept.drift, covariance=covariance, inputs=inputs_of(None, fresh))
-    params = tracker.Params(torque=kept.torque, com_walk=COM_WALK, drift_walk=DRIFT_WALK)
     displacement = last_row(fresh.masses, kept.displacement)
     check_standing(displacement, kept, bench.testbed)
-    return Held(unattended(state, gap), params, displacement, displacement)
+    return Held(unattended(state, gap), params_for(kept.torque), displacement, displacement)
 
 
 def check_standing(displacement: Floats, kept: Kept, testbed: Testbed) -> None:

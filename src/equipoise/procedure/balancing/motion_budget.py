@@ -19,7 +19,7 @@ from itertools import product
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.model.arrays import Floats
 from equipoise.model.testbed import Testbed
 
@@ -41,9 +41,13 @@ USUAL = MotionBudget(2e-6)  # chosen: what an experiment on a few kg hardly meas
 
 def speed_for(testbed: Testbed, way: Floats, budget: MotionBudget) -> float:
     """Return how fast (m/s) masses may travel along ``way`` (m, displacements to go)."""
-    maps, sign = mass_maps(testbed.masses), np.sign(way)
+    return _speed(mass_maps(testbed.masses), testbed.gravity, np.sign(way), budget)
+
+
+def _speed(maps: MassMaps, gravity: float, sign: Floats, budget: MotionBudget) -> float:
+    """Return how fast (m/s) masses may travel in directions of +-1, 0 where one stands."""
     h = float(np.linalg.norm(sign @ maps.momentum))  # kg m, per m/s
-    rate = testbed.gravity * float(np.linalg.norm(sign @ maps.first_moment))  # N, per m/s
+    rate = gravity * float(np.linalg.norm(sign @ maps.first_moment))  # N, per m/s
     torque = float(np.sqrt(2.0 * h**2 / (START * SECOND) + (rate * SECOND) ** 2 / 3.0))
     used = ((budget.torque, torque), (budget.torque_rate, rate))
     return min(limit / amount if amount > 0 else np.inf for limit, amount in used)
@@ -51,8 +55,9 @@ def speed_for(testbed: Testbed, way: Floats, budget: MotionBudget) -> float:
 
 def slowed(testbed: Testbed, budget: MotionBudget) -> Testbed:
     """Return the testbed with masses that are as slow as any move of the budget may be."""
-    ways = product((-1.0, 1.0), repeat=len(testbed.masses))
-    least = min((speed_for(testbed, np.array(way), budget) for way in ways), default=np.inf)
+    maps, g = mass_maps(testbed.masses), testbed.gravity
+    signs = product((-1.0, 1.0), repeat=len(testbed.masses))
+    least = min((_speed(maps, g, np.array(sign), budget) for sign in signs), default=np.inf)
     masses = tuple(replace(mass, speed=min(mass.speed, least)) for mass in testbed.masses)
     return replace(testbed, masses=masses)
 
