@@ -650,6 +650,8 @@ PROCEDURE = _of(
      "procedure/balancing/test_undeclared_torques.py"),
     ("steps/joint_fit.py", "among((*considered, *ANOTHER))", "among(considered)",
      "procedure/balancing/test_undeclared_torques.py"),
+    ("steps/process_noise.py", "np.sqrt(2 * PLAY_TIME * SPACING)",
+     "np.sqrt(2 * PLAY_TIME / SPACING)", "procedure/steps/test_process_noise.py"),
     ("balancing/run_law.py", "expected is not None and expected > end - now",
      "expected is not None and expected < end - now", "procedure/balancing/test_run_law.py"),
     ("balancing/run_law.py", "period - late if late > PROMPT else period", "period",

@@ -61,6 +61,11 @@ def typical_sizes(terms: Iterable[str]) -> Floats:
     return np.array([typical(term) for term in terms])
 
 
+def typical_torques(terms: Iterable[str]) -> tuple[tuple[str, float], ...]:
+    """Return terms with the same."""
+    return tuple((term, typical(term)) for term in terms)
+
+
 def unit_of(term: str) -> str:
     """Return the SI unit of a term's coefficient."""
     return SIZES[term.split("_")[0]][0]

@@ -13,7 +13,7 @@ from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.torque_terms import GROUPS
 from equipoise.model.units import UM
-from equipoise.procedure.steps.joint_fit import learn
+from equipoise.procedure.steps.joint_fit import learn_alone
 from equipoise.procedure.steps.verify import (
     FRESH,
     Aim,
@@ -30,7 +30,7 @@ from tests.support.outcomes import of_use
 @pytest.fixture(scope="module")
 def known():
     """A minute of camera, nothing moved, by a model without drift."""
-    return learn(None, noisy(recording(60.0), 1), platform(), considered=())
+    return learn_alone(noisy(recording(60.0), 1), platform())
 
 
 def wide(known) -> np.ndarray:

@@ -1,5 +1,6 @@
 """A recording as a least-squares problem: residuals in units of their noise, and priors."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -39,7 +40,7 @@ from equipoise.model.arrays import Floats, Ints, Series1, Square, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.sensor_terms import GYRO_CLOCK
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import GROUPS, typical_sizes
+from equipoise.model.torque_terms import GROUPS
 from equipoise.sensors.timing import measured_at, spread_of
 
 COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
@@ -141,10 +142,10 @@ def with_body_covariance(prior: Prior, covariance: Square) -> Prior:
     return replace(prior, weight=weight, coupling=information - np.diag(np.diag(information)))
 
 
-def with_typical_torques(prior: Prior, layout: Layout, names: tuple[str, ...]) -> Prior:
-    """Return a prior that also knows how large some torques are on benches."""
-    weight, size = prior.weight.copy(), typical_sizes(layout.terms)
-    weight[layout.torques] += np.where(np.isin(layout.terms, names), size**-2.0, 0.0)
+def with_torque_sds(prior: Prior, layout: Layout, sds: Iterable[tuple[str, float]]) -> Prior:
+    """Return a prior that also knows how large some torques are: their sd about zero, SI."""
+    weight, sd = prior.weight.copy(), dict(sds)
+    weight[layout.torques] += [sd.get(term, np.inf) ** -2.0 for term in layout.terms]
     return replace(prior, weight=weight)
 
 

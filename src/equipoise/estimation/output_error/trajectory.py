@@ -51,7 +51,7 @@ from equipoise.estimation.output_error.problem import (
     pose,
     prior_of,
     with_body_covariance,
-    with_typical_torques,
+    with_torque_sds,
 )
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump
 from equipoise.estimation.output_error.solution import (
@@ -91,7 +91,7 @@ class Params:
     robust: bool = False  # Huber's loss
     fineness: float = 1.0  # by which integration steps are shorter than estimates need
     travels_count: bool = True  # masses went as recorded, so that travels give the scale
-    typical: tuple[str, ...] = ()  # torques that are as large as benches have them
+    torque_sds: tuple[tuple[str, float], ...] = ()  # one sd about zero of some terms, SI
     budget: Budget = UNLIMITED  # of the search
     modal: ModalInputs | None = None  # what modes do to the body, where there are any
 
@@ -163,8 +163,8 @@ def problem_of(
     prior = prior_of(testbed, errors, layout, params.use_prior, hold, torque_anchor)
     if params.use_prior and testbed.body_covariance is not None:
         prior = with_body_covariance(prior, testbed.body_covariance)
-    if params.typical:
-        prior = with_typical_torques(prior, layout, params.typical)
+    if params.torque_sds:
+        prior = with_torque_sds(prior, layout, params.torque_sds)
     limit = HUBER if params.robust else 0.0
     longest = longest_step(testbed, fastest_rate(recording), recording.rows) / params.fineness
     posed = pose(

@@ -27,7 +27,7 @@ from equipoise.estimation.output_error.problem import (
     Problem,
     prior_of,
     with_body_covariance,
-    with_typical_torques,
+    with_torque_sds,
 )
 from equipoise.estimation.parameters.fit_parameters import Layout
 from equipoise.estimation.torque_by_cause.by_cause import (
@@ -56,6 +56,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_by_cause import CAUSES, TorqueByCause
+from equipoise.model.torque_terms import typical_torques
 
 INTERVAL = 1.0  # s
 SURE = 1e3  # chosen: an sd of a millionth of a value comes of no measurement
@@ -81,8 +82,8 @@ def prior_for(
     prior = prior_of(testbed, problem.errors, layout, other or not sees, ())
     if other:
         prior = with_body_covariance(prior, estimate.covariance_of(BODY))
-    undeclared = tuple(term for term in layout.terms if term not in testbed.disturbances)
-    return with_held(with_typical_torques(prior, layout, undeclared), layout, estimate)
+    undeclared = typical_torques(t for t in layout.terms if t not in testbed.disturbances)
+    return with_held(with_torque_sds(prior, layout, undeclared), layout, estimate)
 
 
 def with_held(prior: Prior, layout: Layout, estimate: Estimate) -> Prior:

@@ -29,19 +29,17 @@ from equipoise.model.law_card import NEEDS, LawCard, Need
 from equipoise.model.reasons.law_reasons import LawReason
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.reasons.step_reasons import StepReason
-from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, joined, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS, among
-from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
-from equipoise.procedure.steps.joint_fit import as_if_stiff, learn
-from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step, verdict_step
+from equipoise.procedure.steps.joint_fit import as_if_stiff
+from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step
 from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
+from equipoise.procedure.steps.swing_verdict import stop_step, swing_verdict
 from equipoise.procedure.steps.tilt_guard import guarded, tilted
-from equipoise.procedure.steps.verification_swing import watched_swing
-from equipoise.procedure.steps.verify import Aim, verdict
+from equipoise.procedure.steps.verify import Aim
 
 TILTED = (StepReason.TILTED, LawReason.TILTED)  # as the guard says it, and as a law does
 PROMPT = 1e-6  # s, chosen: rounding of clocks, by which nothing is late
@@ -128,7 +126,8 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
         bench.stop()
         yield stop_step(bench)
     else:
-        yield proof(bench, session, options)
+        let_all_rest(bench, session)
+        yield swing_verdict(bench, session.eyes, options, options.proof)
 
 
 def warned(law: Law[Any, Any], params: Any, now: float, end: float) -> Iterator[Step]:
@@ -179,6 +178,13 @@ def control(
     observed = sample_of(session.eyes, eyes, fresh, testbed)
     assert observed is not None  # there was one before
     return Session(eyes, hands, (*session.parts, fresh), due), observed, fresh
+
+
+def let_all_rest(bench: Bench, session: Session) -> None:
+    """Let masses and devices rest, and wait until they do."""
+    wait = let_rest(bench, session.eyes, session.hands)[1]
+    if wait > 0:
+        guarded(bench, wait)
 
 
 def measurement(
@@ -235,29 +241,3 @@ def since(parts: tuple[Recording, ...], start: float) -> Recording:
     """Return the record from a time (s) on."""
     recent = [part for part in parts if part.span[1] >= start]
     return window(joined(recent), start, np.inf)
-
-
-def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
-    """Return the verdict on a fresh swing, over which the centre of mass is taken to stand still.
-
-    A platform that turns from level at an even rate shows a drift as it shows a height.
-    """
-    wait = let_rest(bench, session.eyes, session.hands)[1]
-    if wait > 0:
-        guarded(bench, wait)
-    began = bench.time
-    fresh = watched_swing(bench, session.eyes, options.proof)
-    if tilted(fresh, bench.testbed):
-        bench.stop()
-        return stop_step(bench)
-    testbed = bench.testbed.without("drift")
-    knowledge = learn(None, fresh, testbed, options.budget, considered=())
-    judged = verdict(knowledge, None, began, options)
-    return verdict_step(bench.time, judged, judged.reasons, knowledge.recording,
-                        knowledge.estimate)  # fmt: skip
-
-
-def stop_step(bench: Bench) -> Step:
-    """Return the stop of a run whose platform tilts too much."""
-    verdict = Verdict(one_reason(VerdictReason.TILTED))
-    return Step("stop", bench.time, verdict.reasons, verdict=verdict)

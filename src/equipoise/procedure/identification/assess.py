@@ -44,7 +44,7 @@ from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import TERMS, among
+from equipoise.model.torque_terms import TERMS, among, typical_torques
 from equipoise.model.verdict import Verdict, VerdictOutcome, outcome_of
 from equipoise.procedure.identification.cross_checks import (
     KNOWN,
@@ -128,7 +128,7 @@ def fit_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Fi
         among({*testbed.disturbances, *options.terms}),
         use_prior=True,
         hold=options.hold,
-        typical=TERMS,
+        torque_sds=typical_torques(TERMS),
         budget=options.budget.renewed(),
     )
     unbalanced = replace(testbed, com_sd=np.full(3, UNKNOWN_COM))

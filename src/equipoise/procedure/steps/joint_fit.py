@@ -11,6 +11,7 @@ from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude, leaves_more
+from equipoise.estimation.output_error.segment_jumps import UNCUT
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import with_errors_of
 from equipoise.estimation.search_budget import UNLIMITED, Budget, cut_short
@@ -19,7 +20,8 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import GROUPS, among, typical_sizes
+from equipoise.model.torque_terms import GROUPS, among, typical_sizes, typical_torques
+from equipoise.procedure.steps.process_noise import process_noise
 
 DRIFT, THERMAL = GROUPS["drift"], GROUPS["thermal"]
 CONSIDERED = (*GROUPS["viscous"], *DRIFT, *THERMAL)  # there is some of these on every bench
@@ -70,6 +72,7 @@ class FitSetup:
     testbed: Testbed
     considered: tuple[str, ...]
     allowed: Budget
+    wanders: bool = False  # air plays and com walks, as the testbed states it
 
 
 def as_if_stiff(testbed: Testbed) -> Testbed:
@@ -86,7 +89,6 @@ def learn(
     fresh: Recording,
     testbed: Testbed,
     allowed: Budget = UNLIMITED,
-    considered: tuple[str, ...] = CONSIDERED,
 ) -> Knowledge:
     """Return the knowledge with a fresh record added; the testbed's values are the prior.
 
@@ -101,12 +103,10 @@ def learn(
     testbed = as_if_stiff(testbed)
     fresh = replace(fresh, masses=without_flicker(fresh, testbed))
     recording = fresh if before is None else join(before.recording, fresh)
-    if not warms(recording, testbed):
-        considered = tuple(term for term in considered if term not in THERMAL)
+    warm = warms(recording, testbed)
+    considered = tuple(term for term in CONSIDERED if warm or term not in THERMAL)
     setup = FitSetup(recording, testbed, considered, allowed)
     knowledge = fitted_in(setup, before, () if before is None else before.found)
-    if not considered:
-        return knowledge
     promises, left = bool(supported(knowledge, setup)), knowledge.estimate.residual
     assert left is not None
     if not (promises or leaves_more(left)):
@@ -117,6 +117,13 @@ def learn(
     if shown:
         return fitted_in(setup, knowledge, among((*knowledge.found, *shown)))
     return beside if promises else knowledge
+
+
+def learn_alone(fresh: Recording, testbed: Testbed, allowed: Budget = UNLIMITED) -> Knowledge:
+    """Return what a record shows by itself: the testbed's priors, and its process noise."""
+    testbed = as_if_stiff(testbed)
+    recording = replace(fresh, masses=without_flicker(fresh, testbed))
+    return fitted_in(FitSetup(recording, testbed, (), allowed, wanders=True), None, ())
 
 
 def supported(knowledge: Knowledge, setup: FitSetup) -> tuple[str, ...]:
@@ -131,10 +138,10 @@ def supported(knowledge: Knowledge, setup: FitSetup) -> tuple[str, ...]:
 def params_of(setup: FitSetup, found: tuple[str, ...]) -> trajectory.Params:
     """Return the options of a fit with torques that are declared, found, or else considered."""
     open_terms = {*setup.testbed.disturbances, *found}
-    typical = among({*setup.considered} - open_terms)
-    terms = among({*open_terms, *setup.considered})
-    budget = setup.allowed.renewed()
-    return trajectory.Params(terms, use_prior=True, typical=typical, budget=budget)
+    sds = typical_torques(among({*setup.considered} - open_terms))
+    budget, terms = setup.allowed.renewed(), among({*open_terms, *setup.considered})
+    jumps = process_noise(setup.testbed, setup.recording.span) if setup.wanders else UNCUT
+    return trajectory.Params(terms, (), jumps, use_prior=True, torque_sds=sds, budget=budget)
 
 
 def fitted_in(setup: FitSetup, before: Knowledge | None, found: tuple[str, ...]) -> Knowledge:
