@@ -38,6 +38,7 @@ from equipoise.estimation.torque_by_cause.by_cause import (
     steps_of,
 )
 from equipoise.estimation.torque_by_cause.closure import closure_of
+from equipoise.estimation.torque_by_cause.earned_events import earned
 from equipoise.estimation.torque_by_cause.posed_record import (
     CARRIER,
     about,
@@ -105,10 +106,10 @@ def torque_by_cause(recording: Recording, testbed: Testbed, estimate: Estimate) 
     fitted = about(problem, points)
     for _ in range(ROUNDS):
         by = coordinates_of(fitted, testbed.up, constant)
-        step = mean_course(weighed(chain_of(fitted, prior, by), coarsely=True))
+        step = mean_course(weighed(earned(chain_of(fitted, prior, by)), coarsely=True))
         fitted = about(problem, points_at(fitted, by, step))
     by = coordinates_of(fitted, testbed.up, constant)
-    chain = chain_of(fitted, prior, by)
+    chain = earned(chain_of(fitted, prior, by))
     found = weighed(chain)
     rows = mixed(found, impulses_of(fitted, chain, by, edges), INTERVAL)
     closure = closure_of(fitted, steps_of(by, mean_course(found)), edges, rows.total)
