@@ -1,4 +1,4 @@
-"""Torque by cause on platforms of MuJoCo bodies: moved by hand, and kept balanced in an experiment."""
+"""Torque by cause on platforms of MuJoCo bodies: moved once, and kept in an experiment."""
 
 from dataclasses import replace
 

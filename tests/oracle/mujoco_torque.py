@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_by_cause import TOTAL
 from tests.oracle.mujoco_bench import OracleRun, Platform, matrix
 from tests.oracle.mujoco_experiment import BEAT, ExperimentBench, Surroundings, warmth
 from tests.oracle.mujoco_live import STEP
 
 Array = NDArray[np.float64]
 EVERY = 5  # steps between rows of what is true; torques change at every fourth of these alone
-MEAN = "total"
 
 
 def gusts(rng: np.random.Generator, t: Array, sd: float, lasts: float) -> Array:
@@ -73,7 +73,7 @@ def divided(
     found = {name: impulses(t, torque, edges) / seconds for name, torque in acting.items()}
     change = np.diff(read_at(t, momentum, edges), axis=0)
     total = (change + impulses(t, np.cross(w, momentum), edges)) / seconds
-    return {**found, "moves": total - sum(found.values()), MEAN: total}
+    return {**found, "moves": total - sum(found.values()), TOTAL: total}
 
 
 def torque_of(run: OracleRun, air: Array, edges: Array) -> dict[str, Array]:

@@ -33,11 +33,11 @@ def test_an_estimate_made_before_gives_the_same_ledger(equipoise, strict_json, s
         assert np.array(other[key]) == pytest.approx(np.array(own[key]), rel=1e-9)
 
 
-@pytest.mark.parametrize("suffix", ["csv", "parquet", "mcap", "mat"])
+@pytest.mark.parametrize("name", ["run.csv", "run.parquet", "run.mcap", "run.mat"])
 def test_columns_of_the_record_are_the_numbers_of_the_document(
-    equipoise, strict_json, swing, identified, tmp_path, suffix
+    equipoise, strict_json, swing, identified, name
 ):
-    path = tmp_path / f"with_torque.{suffix}"
+    path = swing.with_name(name)
     said = equipoise("ledger", swing, "--testbed", "sputnix", "--estimate", identified,
                      "--record", path, "--json")  # fmt: skip
     document, written, before = strict_json(said.out), read_recording(path), read_recording(swing)

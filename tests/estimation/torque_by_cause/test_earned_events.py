@@ -34,9 +34,9 @@ def noise(rng):
     return NOISE * rng.normal(size=(K, 3))
 
 
-def gusts(rng, sd=1e-5, stay=np.exp(-1 / 20)):
+def gusts(rng, sd=1e-5):
     """Return rates (K, 3) under a torque that wanders."""
-    torque = np.zeros((K, 3))
+    torque, stay = np.zeros((K, 3)), np.exp(-1 / 20)
     for k in range(K):
         torque[k] = stay * torque[k - 1] + np.sqrt(1 - stay**2) * sd * rng.normal(size=3)
     return np.vstack([np.zeros((1, 3)), np.cumsum(torque[:-1], axis=0)])

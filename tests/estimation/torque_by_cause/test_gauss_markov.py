@@ -20,8 +20,10 @@ def random_chain(events=()):
     prior = np.diag([0.0] * 6 + [0.0] * 3 + [2.0])
     score = np.append(np.zeros(N - 1), 0.3)
     changed = tuple(np.array(events if k == 1 else [], dtype=np.int64) for k in range(K - 1))
-    return Chain(normal, rng.normal(size=(K, N)), onward, np.array([1.0, 1.0, 0.5, 1.5]), CARRIER,
-                 0.2 * rng.normal(size=(K, 3)), gaps, changed, (1.0,) * (K - 1), prior, score)  # fmt: skip
+    return Chain(
+        normal, rng.normal(size=(K, N)), onward, np.array([1.0, 1.0, 0.5, 1.5]), CARRIER,
+        0.2 * rng.normal(size=(K, 3)), gaps, changed, (1.0,) * (K - 1), prior, score,
+    )  # fmt: skip
 
 
 def at_once(chain, process):

@@ -20,7 +20,8 @@ COVARIANCE = np.array([[4e-12, 1e-12, np.nan], [1e-12, 9e-12, np.nan], [np.nan, 
 TOUCH = Event("impulse", 12.25, 0.02, np.array([1e-4, 0.0, -2e-4]), 1e-10 * np.eye(3), 44.0)
 FOUND = Estimate(
     "trajectory",
-    Outcome((Reason(Why.COLOURED_RESIDUAL, (), {"lag_one": 0.3, "spectral_peak": 2.0, "widening": 1.4}),
+    Outcome((Reason(Why.COLOURED_RESIDUAL, (),
+                    {"lag_one": 0.3, "spectral_peak": 2.0, "widening": 1.4}),
              Reason(ImplausibleReason.INERTIA_OF_NO_BODY, (),
                     {"mass": 4.0, "radius": 1.0, "sd": 0.01, "low": 0.02, "high": 0.5}))),
     (Parameter("com_x", "m", 1 / 3e6, 2e-6), Parameter("com_y", "m", 2e-6, 3e-6),

@@ -52,6 +52,7 @@ class Chain(NamedTuple):
     event_sd: tuple[float, ...]  # (K - 1) of these, as wide as events are
     prior: Square  # (n, n) information, without the torque's
     prior_score: Floats  # (n,)
+    height: float = 0.0  # -2 ln of how high the prior is at the points, less what models share
 
 
 class Process(NamedTuple):
@@ -140,7 +141,7 @@ def backward(chain: Chain, process: Process) -> tuple[Square, Floats, float, Ste
 def improbability(chain: Chain, process: Process) -> float:
     """Return -2 ln of how probable the rows are with this torque, but for a constant."""
     try:
-        return backward(chain, process)[2]
+        return backward(chain, process)[2] + chain.height
     except np.linalg.LinAlgError:
         return np.inf
 

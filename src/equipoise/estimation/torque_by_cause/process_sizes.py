@@ -55,16 +55,21 @@ def least_improbability(chain: Chain) -> float:
     return min(improbability(chain, process) for process in grid(COARSE))
 
 
-def weighed(chain: Chain, coarsely: bool = False) -> tuple[Weighed, ...]:
-    """Return the processes that the record leaves, with their courses; weights sum to 1."""
-    processes = grid(COARSE if coarsely else 1)
-    improbable = np.array([improbability(chain, process) for process in processes])
-    share = np.array([prior_share(p) for p in processes])
+def weighed(chains: Sequence[Chain], coarsely: bool = False) -> tuple[Weighed, ...]:
+    """Return the processes that the record leaves, with their courses; weights sum to 1.
+
+    Chains are models of one record, at even odds before it is seen (``term_odds``).
+    """
+    trials = [(c, process) for c in chains for process in grid(COARSE if coarsely else 1)]
+    improbable = np.array([improbability(chain, process) for chain, process in trials])
+    share = np.array([prior_share(process) for _, process in trials])
     share *= np.exp(-0.5 * (improbable - improbable.min()))
     kept = np.flatnonzero(share >= COUNTS * share.max())
     total = float(share[kept].sum())
     return tuple(
-        Weighed(processes[k], float(share[k]) / total, smoothed(chain, processes[k])) for k in kept
+        Weighed(process, float(share[k]) / total, smoothed(chain, process))
+        for k in kept
+        for chain, process in (trials[k],)
     )
 
 

@@ -1,6 +1,6 @@
-"""The native columns of torque by cause: torque_<cause>_x_N_m, and torque_<cause>_sd_x_N_m of its sd.
+"""The native columns of torque by cause: the mean over the second that begins at the row.
 
-Body axes; mean over the second that begins at the row.
+torque_<cause>_x_N_m  torque_<cause>_sd_x_N_m    body axes; the second is one sd of the first
 """
 
 import re

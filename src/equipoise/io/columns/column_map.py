@@ -28,7 +28,7 @@ class Euler:
 
 @dataclass(frozen=True, slots=True)
 class NamedColumn:
-    """A column that a recording names ('x1', 'wheel:x', 'gravity_x'): of a mass, device or cause."""
+    """A column that a recording names: of a mass 'x1', a device 'wheel:x', a cause 'gravity_x'."""
 
     name: str
     column: str

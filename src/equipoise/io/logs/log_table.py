@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.cause_columns import cause_column
+from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import si_column
 from equipoise.io.columns.native_columns import (
     ACCELEROMETER,
