@@ -71,8 +71,8 @@ def kept(seed: int) -> Judged | None:
     Wheels point the platform, masses follow slowly, a lamp warms it, its centre of mass drifts.
     """
     bench = kept_platform(seed)
-    assert bench.seen is not None
-    recording = window(bench.seen, bench.kept_from, bench.seen.span[1])
+    assert bench.observed is not None
+    recording = window(bench.observed, bench.kept_from, bench.observed.span[1])
     masses = tuple(replace(mass, accuracy=STOPS) for mass in bench.testbed.masses)
     testbed = replace(bench.testbed, masses=masses, disturbances=expand(("drift", "thermal")))
     *_, last = identify(recording, testbed, IdentifyOptions("trajectory"))

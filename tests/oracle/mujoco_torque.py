@@ -90,7 +90,7 @@ class WatchedBench(ExperimentBench):
     def __init__(
         self, testbed: Testbed, platform: Platform, surroundings: Surroundings, seed: int
     ) -> None:
-        self.seen: Recording | None = None
+        self.observed: Recording | None = None
         self._air, self._beat = np.zeros(3), 0.0
         self._rows_kept = list[tuple[float, float, Array, Array, Array, Array, Array]]()
         super().__init__(testbed, platform, surroundings, seed)
@@ -111,7 +111,7 @@ class WatchedBench(ExperimentBench):
         """Let time pass and return what was seen since the last read."""
         rows = super().read(duration)
         if self._began is not None:
-            self.seen = rows if self.seen is None else join(self.seen, rows)
+            self.observed = rows if self.observed is None else join(self.observed, rows)
         return rows
 
     def _before_step(self) -> None:

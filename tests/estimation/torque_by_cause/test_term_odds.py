@@ -24,8 +24,10 @@ def chain_of(rate, at=0.0):
     descent[:, RATE] = (rate - turned(np.full(3, at) * COURSE)) / NOISE**2
     prior = np.diag([1.0] * 6 + [0.0] * 3 + [USUAL**-2] * 3)
     score = np.append(np.zeros(9), np.full(3, -at / USUAL**2))
-    return Chain(normal, descent, onward, np.ones(K - 1), CARRIER, np.zeros((K, 3)),
-                 np.zeros((K - 1, 12)), (NONE,) * (K - 1), (1.0,) * (K - 1), prior, score)  # fmt: skip
+    return Chain(
+        normal, descent, onward, np.ones(K - 1), CARRIER, np.zeros((K, 3)), np.zeros((K - 1, 12)),
+        (NONE,) * (K - 1), (1.0,) * (K - 1), prior, score,
+    )  # fmt: skip
 
 
 def turned(torque):
