@@ -58,7 +58,7 @@ def least_improbability(chain: Chain) -> float:
 def weighed(chains: Sequence[Chain], coarsely: bool = False) -> tuple[Weighed, ...]:
     """Return the processes that the record leaves, with their courses; weights sum to 1.
 
-    Chains are models of one record, at even odds before it is seen (``term_odds``).
+    Chains are models of one record, at the odds that ``term_odds`` gives them.
     """
     trials = [(c, process) for c in chains for process in grid(COARSE if coarsely else 1)]
     improbable = np.array([improbability(chain, process) for chain, process in trials])

@@ -2,10 +2,12 @@
 
 An identification adds a term where that explains a record. A torque that wanders is explained by
 terms, too, for as long as a record lasts; with them the Gauss-Markov torque looks small, and all
-intervals are too short. So a group of terms that the testbed does not declare acts or does not, at
-even odds before the record is seen:
+intervals are too short. So a group of terms that the testbed does not declare acts or does not:
 
-    p(x | rows) = sum over groups that act of  p(x | rows, groups) p(rows | groups) / p(rows)
+    p(x | rows) ~ sum over groups that act of  p(x | rows, groups) p(rows | groups) p(groups)
+
+Each acts at odds of one to all others before the record is seen: whichever of them resembles the
+torque best was found by trying them all.
 
 A term that does not act is known to be zero: its prior is a thousandth of what benches have. All
 else that is unknown is integrated out, the size of the unmodelled torque included.
@@ -27,6 +29,7 @@ from equipoise.model.arrays import Floats, Ints
 from equipoise.model.torque_terms import GROUPS
 
 NOTHING = 1e-3  # of what benches have, chosen: a term that does not act
+ODDS = 1.0 / (len(GROUPS) - 1)  # chosen: of all groups one acts that nobody declared
 COUNTS = 9.2  # of -2 ln, chosen: a model a hundred times less probable is left out
 CONSTANT = "constant"  # the terms whose coordinates in the chain stand behind all others
 
@@ -78,4 +81,5 @@ def without(chain: Chain, group: Doubted) -> Chain:
     prior[where, where] = narrow
     score[where] = -narrow * group.at
     height = float(np.sum((narrow - wide) * group.at**2 - np.log(narrow / wide)))
+    height += 2.0 * float(np.log(ODDS))
     return chain._replace(prior=prior, prior_score=score, height=chain.height + height)
