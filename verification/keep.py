@@ -20,6 +20,7 @@ from equipoise.procedure.balancing.balance import balance
 from equipoise.procedure.balancing.hold import HoldOptions, begun, hold
 from equipoise.procedure.balancing.motion_budget import MotionBudget
 from equipoise.procedure.steps.joint_fit import Knowledge
+from tests.oracle.mujoco_bench import Platform
 from tests.oracle.mujoco_experiment import ExperimentBench, Surroundings, torque_by_moves
 from tests.oracle.mujoco_live import platform_of
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn, triple
@@ -70,7 +71,7 @@ def bed() -> Testbed:
                    inertia_sd=0.03)  # fmt: skip
 
 
-def bench_of(seed: int) -> ExperimentBench:
+def drawn(seed: int) -> tuple[Testbed, Platform, Surroundings]:
     """Return a platform with a drift of 1 to 4 um/min and a lamp that goes on twice."""
     testbed, rng = bed(), np.random.default_rng([seed, 41])
     way, warm = rng.normal(size=(2, 3))
@@ -83,7 +84,12 @@ def bench_of(seed: int) -> ExperimentBench:
     com = rng.uniform([-30e-6, -30e-6, -120e-6], [30e-6, 30e-6, -60e-6])
     tilt, rate = 0.05 * rng.normal(size=3), np.radians(rng.uniform(-0.3, 0.3, 3))
     platform = platform_of(testbed, com, J, tilt, rate)
-    return ExperimentBench(testbed, platform, Surroundings(drift, thermal, lamp), seed)
+    return testbed, platform, Surroundings(drift, thermal, lamp)
+
+
+def bench_of(seed: int) -> ExperimentBench:
+    """Return a bench of such a platform."""
+    return ExperimentBench(*drawn(seed), seed)
 
 
 def kept(lasts: float, task: tuple[int, bool]) -> Run:

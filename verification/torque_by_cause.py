@@ -6,7 +6,6 @@ Every record is of another platform. Its true torque is integrated from the simu
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,21 +13,23 @@ from numpy.typing import NDArray
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.presets import read_preset
 from equipoise.io.testbed.testbed_file import read_testbed
-from equipoise.model.estimate import NORMAL_95
 from equipoise.model.testbed import Gyro, Testbed
-from equipoise.model.torque_by_cause import CAUSES, TorqueByCause
+from equipoise.model.torque_by_cause import CAUSES, TOTAL, TorqueByCause
 from equipoise.model.torque_terms import expand
 from equipoise.model.units import PERCENT
 from equipoise.procedure.identification.attribute_torque import attribute_torque
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.simulation.carried_out import Moves, recorded
 from equipoise.study.true_torque import TrueTorqueBench
+from verification import torque_on_mujoco
+from verification.judged_torque import Judged, judged_by, share
 from verification.real_record import HELD, RECORD, TESTBED
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn
 
 DURATION = 60.0  # s
 SEED = 100  # of the first platform
-LEAST_SD = 5e-9  # N m, chosen: the integrals of the truth err by a tenth of it
+ON_MUJOCO = {torque_on_mujoco.MOVED: torque_on_mujoco.moved,
+             torque_on_mujoco.KEPT: torque_on_mujoco.kept}  # fmt: skip
 BAND = (0.92, 0.98)  # of components within their 95 % intervals
 Array = NDArray[np.float64]
 
@@ -60,16 +61,6 @@ KINDS = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Judged:
-    """One record against its truth."""
-
-    kind: str
-    z: Array  # (n, causes, 3) error in sd; NaN where there is no such cause
-    total: Array  # (n, 3) the same of the sum
-    closure: float  # rms of what is left of the balance, in sd
-
-
 def testbed_of(kind: Kind) -> Testbed:
     """Return a table whose masses stop within 20 um and whose description is honest."""
     preset = read_preset("sputnix")
@@ -98,20 +89,8 @@ def judged(kind: Kind, seed: int) -> Judged | None:
         return None
     found = attribute_torque(recording, testbed, last.estimate)
     true = bench.torque_by_cause(np.append(found.t, found.t[-1] + found.interval))
-    z = np.full((len(found.t), len(CAUSES), 3), np.nan)
-    for k, name in enumerate(CAUSES):
-        if name in found.causes and np.any(true[:, k]):
-            torque, sd = found.of(name)
-            shown = sd > LEAST_SD
-            z[:, k][shown] = ((torque - true[:, k]) / np.maximum(sd, LEAST_SD))[shown]
-    total = (found.total - true.sum(axis=1)) / found.total_sd
-    return Judged(kind.name, z, total, found.closure.normalised_rms)
-
-
-def share(z: Array) -> float:
-    """Return the share of errors within 95 % intervals."""
-    known = z[np.isfinite(z)]
-    return float(np.mean(np.abs(known) <= NORMAL_95)) if known.size else np.nan
+    by_name = dict(zip(CAUSES, np.moveaxis(true, 1, 0), strict=True))
+    return judged_by(kind.name, found, by_name | {TOTAL: true.sum(axis=1)})
 
 
 def cause_rows(runs: Sequence[Judged]) -> tuple[Row, ...]:
@@ -149,7 +128,8 @@ def closure_rows(torque: TorqueByCause) -> tuple[Row, ...]:
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Divide the torque of one platform of each kind for each seed."""
     jobs = [(kind, SEED + len(KINDS) * seed + k) for seed in seeds for k, kind in enumerate(KINDS)]
-    runs = [run for run in spread(partial(_judged_job), jobs) if run is not None]
+    jobs += [(kind, seed) for seed in seeds for kind in ON_MUJOCO]
+    runs = [run for run in spread(_judged_job, jobs) if run is not None]
     closure = float(np.sqrt(np.mean([run.closure**2 for run in runs])))
     rows = [
         *cause_rows(runs),
@@ -157,19 +137,22 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         *(closure_rows(real_torque()) if RECORD.exists() else ()),
     ]
     notes = [
-        f"{kind.name}: the total is within in {share(np.concatenate(own)) / PERCENT:.1f} % of the "
+        f"{name}: the total is within in {share(np.concatenate(own)) / PERCENT:.1f} % of the "
         f"seconds of {len(own)} records."
-        for kind in KINDS
-        if (own := [run.total for run in runs if run.kind == kind.name])
+        for name in (*(kind.name for kind in KINDS), *ON_MUJOCO)
+        if (own := [run.total for run in runs if run.kind == name])
     ]
     claim = (
-        f"{len(runs)} records of {DURATION:g} s, each of another platform of 14 kg, of "
-        f"{len(KINDS)} kinds: air torque of 0 to 10 uN m, drift, sag, damping, nearly balanced, "
-        "camera alone. Mean torque of each cause in each second against the simulated truth. "
+        f"{len(runs)} records, each of another platform, of {len(KINDS)} simulated kinds (14 kg, "
+        f"{DURATION:g} s: air torque of 0 to 10 uN m, drift, sag, damping, nearly balanced, camera "
+        "alone) and two of MuJoCo bodies: moved once (14 kg, 60 s), and kept balanced in an "
+        "experiment (4 kg, 150 s, slow masses, wheels, drift, lamp), both in air of 3 uN m. Mean "
+        "torque of each cause in each second against the truth. "
         "Errors within a record are correlated: com and the scale err once a platform."
     )
     return Result("ledger", claim, tuple(rows), tuple(notes))
 
 
-def _judged_job(job: tuple[Kind, int]) -> Judged | None:
-    return judged(*job)
+def _judged_job(job: tuple[Kind | str, int]) -> Judged | None:
+    kind, seed = job
+    return ON_MUJOCO[kind](seed) if isinstance(kind, str) else judged(kind, seed)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from equipoise.model.reasons.torque_reasons import TorqueReason
-from equipoise.model.torque_by_cause import MomentumClosure, TorqueByCause
+from equipoise.model.recording import Recording, Samples, column_names, window
+from equipoise.model.torque_by_cause import MomentumClosure, TorqueByCause, with_torque
 
 LEFT = np.array([[1.0, -3.0, 0.5], [0.5, 1.0, np.nan]])
 
@@ -56,3 +57,22 @@ def test_torque_of_a_cause_and_its_course():
     assert courses["total"].greatest == 1.0
     with pytest.raises(KeyError):
         torque.of("sag")
+
+
+def test_a_recording_takes_the_torque_of_each_cause_as_columns():
+    """Gravity about x is 3 N m, its sd 1; what was recorded stays as it was."""
+    rate = Samples(np.arange(3.0), np.zeros((3, 3)))
+    recording = with_torque(Recording(rate=rate), made(LEFT))
+    names = column_names(recording, "torque_by_cause")
+    assert names[:4] == ("gravity_x", "gravity_sd_x", "gravity_y", "gravity_sd_y")
+    assert len(names) == 3 * 2 * len(("gravity", "air", "total"))
+    rows = recording.torque_by_cause
+    assert rows.t.tolist() == [0.0, 1.0]
+    assert rows.values[1, [names.index("gravity_x"), names.index("air_x")]].tolist() == [3.0, 4.0]
+    assert recording.rate is rate
+
+
+def test_a_part_of_a_recording_keeps_the_rows_within():
+    recording = with_torque(Recording(), made(LEFT))
+    assert window(recording, 0.5, 2.0).torque_by_cause.t.tolist() == [1.0]
+    assert window(recording, 0.5, 2.0).cause_names == recording.cause_names

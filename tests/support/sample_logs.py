@@ -33,6 +33,8 @@ def record() -> Recording:
         Samples(t, three[:, :2]), Samples(t, three * 1e-5), Samples(t[:2], 20.0 + three[:2, :1]),
         Samples(t[:2], three[:2, :1]), Samples(t, three * 9), Samples(t[1:4], three[1:4]),
         position=Samples(t, three[:, :2] / 11),
+        cause_names=("gravity_x", "gravity_sd_x"),
+        torque_by_cause=Samples(t[:5], three[:5, :2] / 13),
     )  # fmt: skip
 
 

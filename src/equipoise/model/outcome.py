@@ -97,6 +97,8 @@ NOT_TRUSTWORTHY = (
     ImplausibleReason.INERTIA_OF_NO_BODY,
     ImplausibleReason.SWINGS_WITH_COM_ABOVE,
 )
+KINDS = (Why, ImplausibleReason, MassBudgetReason, ModeReason, TableReason)
+CODES: Mapping[str, Code] = {str(code): code for kind in KINDS for code in kind}  # by their words
 
 
 def code_of(reasons: Iterable[Reason]) -> OutcomeCode:

@@ -5,6 +5,9 @@ momentum and known torque are straight lines between their rows, and constant ou
 
 A device's name begins with what is reported of it ('wheel:x', ``model.devices.recorded_name``):
 a file writes each kind in its own unit, and is read without a testbed.
+
+The torque by cause alone was not reported: it was found from the other channels and written beside
+them (``model.torque_by_cause``). No estimator reads it.
 """
 
 from collections.abc import Sequence
@@ -80,6 +83,8 @@ class Recording(Plotted, FromMemory):
     accelerometer: Samples | None = None  # (n, 3) m/s^2, specific force, body axes: +g up at rest
     sun: Samples | None = None  # (n, 3) unit vectors to the lamp, body axes
     position: Samples | None = None  # (n, 2) m, of P on a planar table, laboratory axes
+    cause_names: tuple[str, ...] = ()  # 'gravity_x', 'gravity_sd_x': mean torque, and its sd
+    torque_by_cause: Samples | None = None  # (n, k) N m, body axes, of the second behind each row
     # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
     # when they differ by no more than rounding. A mean of frames is shorter than one. Not written.
     attitude_norm: Samples | None = None
@@ -103,8 +108,15 @@ class Recording(Plotted, FromMemory):
 
 
 CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field", "temperature",
-            "lamp", "accelerometer", "sun", "position")  # fmt: skip
+            "lamp", "accelerometer", "sun", "position", "torque_by_cause")  # fmt: skip
 INPUTS = ("masses", "momentum", "torque", "devices", "lamp")  # known between their rows
+# Channels whose columns have names, and where a recording has these.
+NAMED = {"masses": "mass_names", "devices": "device_names", "torque_by_cause": "cause_names"}
+
+
+def column_names(recording: Recording, channel: str) -> tuple[str, ...]:
+    """Return the names of a channel's columns; none of a channel without names."""
+    return getattr(recording, NAMED[channel]) if channel in NAMED else ()
 
 
 def window(recording: Recording, start: float, end: float) -> Recording:
@@ -150,9 +162,8 @@ def join(first: Recording, second: Recording) -> Recording:
     """Return the two, one after the other; rows of the second at or before the first's end go."""
     parts = {name: _both(getattr(first, name), getattr(second, name)) for name in CHANNELS}
     lengths = _both(first.attitude_norm, _lengths_after(first.attitude, second.attitude_norm))
-    names = first.mass_names or second.mass_names
-    devices = first.device_names or second.device_names
-    return replace(first, mass_names=names, device_names=devices, attitude_norm=lengths, **parts)
+    names = {each: getattr(first, each) or getattr(second, each) for each in NAMED.values()}
+    return replace(first, attitude_norm=lengths, **parts, **names)
 
 
 def _both(a: Samples | None, b: Samples | None) -> Samples | None:

@@ -12,7 +12,7 @@ Torques are means over each interval in body axes, N m. Devices of the experimen
 gyros, coils, jets) are commanded, no disturbance, and not among the causes.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,11 +21,13 @@ from equipoise.model.estimate import NORMAL_95
 from equipoise.model.presentation import Plotted
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.reasons.torque_reasons import TorqueReason
+from equipoise.model.recording import Recording, Samples
 
 GRAVITY, SAG, DRIFT, WARMTH, MOVES, AIR, CONTACTS = range(7)
 SHOWN = 0.01  # of the band of the total, chosen: less is not worth a sentence
 CLOSED = 1.5  # sd rms, chosen: half as much again as stated noise leaves
 TOTAL = "total"
+AXES = ("x", "y", "z")
 CAUSES = ("gravity", "sag", "drift", "warmth", "moves", "air", "contacts")
 
 
@@ -118,6 +120,16 @@ class TorqueByCause(Plotted):
         return (*(TorqueCourse(name, *self.of(name)) for name in self.causes), whole)
 
     @property
+    def columns(self) -> dict[str, Series1]:
+        """Return torque and sd of each cause and of the sum, N m: 'gravity_x', 'gravity_sd_x'."""
+        return {
+            f"{course.name}_{kind}{axis}": values[:, k]
+            for course in self.courses
+            for k, axis in enumerate(AXES)
+            for kind, values in (("", course.torque), ("sd_", course.sd))
+        }
+
+    @property
     def closes(self) -> bool:
         """Say whether the causes close the momentum balance, as far as rows can test it."""
         return self.closure.reason.code is not TorqueReason.BALANCE_OPEN
@@ -134,3 +146,10 @@ class TorqueByCause(Plotted):
         """Return torque and sd of a cause (n, 3), N m; KeyError if it is not among them."""
         k = {name: k for k, name in enumerate(self.causes)}[cause]
         return self.torque[:, k], self.sd[:, k]
+
+
+def with_torque(recording: Recording, torque: TorqueByCause) -> Recording:
+    """Return a recording with the torque of each cause as a channel, a row an interval."""
+    columns = torque.columns
+    rows = Samples(torque.t, np.column_stack(list(columns.values())))
+    return replace(recording, cause_names=tuple(columns), torque_by_cause=rows)

@@ -131,6 +131,7 @@ def everything() -> Recording:
         device_names=("wheel:x", "gimbal:a_b", "dipole:x", "jet:x"), devices=rows(4, 0.05),
         temperature=rows(1, 0.0), lamp=rows(1, 0.0), accelerometer=rows(3, 0.06),
         sun=rows(3, 0.07), position=rows(2, 0.08),
+        cause_names=("sag_x", "sag_sd_x"), torque_by_cause=rows(2, 0.09),
     )  # fmt: skip
 
 
@@ -140,6 +141,7 @@ def test_what_to_pandas_gives_comes_back():
     assert again.notes == ()
     assert again.mass_names == recording.mass_names
     assert again.device_names == recording.device_names
+    assert again.cause_names == recording.cause_names
     for name in CHANNELS:
         ours, theirs = getattr(again, name), getattr(recording, name)
         np.testing.assert_array_equal(ours.t, theirs.t)

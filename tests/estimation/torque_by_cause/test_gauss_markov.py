@@ -20,8 +20,10 @@ def random_chain(events=()):
     prior = np.diag([0.0] * 6 + [0.0] * 3 + [2.0])
     score = np.append(np.zeros(N - 1), 0.3)
     changed = tuple(np.array(events if k == 1 else [], dtype=np.int64) for k in range(K - 1))
-    return Chain(normal, rng.normal(size=(K, N)), onward, np.array([1.0, 1.0, 0.5, 1.5]), CARRIER,
-                 0.2 * rng.normal(size=(K, 3)), gaps, changed, 1.0, prior, score)  # fmt: skip
+    return Chain(
+        normal, rng.normal(size=(K, N)), onward, np.array([1.0, 1.0, 0.5, 1.5]), CARRIER,
+        0.2 * rng.normal(size=(K, 3)), gaps, changed, (1.0,) * (K - 1), prior, score,
+    )  # fmt: skip
 
 
 def at_once(chain, process):
@@ -39,7 +41,7 @@ def at_once(chain, process):
         for j, coordinate in enumerate([*CARRIER, *chain.events[k]]):
             new[coordinate, at + j] += 1.0
         weight[at : at + 3] = 1 / (process.sd**2 * (1 - stay**2))
-        weight[at + 3 : at + count] = chain.event_sd**-2
+        weight[at + 3 : at + count] = chain.event_sd[k] ** -2
         maps.append(new)
         offset.append(F @ offset[-1] + o)
         at += count

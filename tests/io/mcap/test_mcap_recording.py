@@ -86,11 +86,13 @@ def test_times_and_values_come_back_to_the_last_bit(tmp_path):
         temperature=Samples(t[:3], values[:3, :1]), lamp=Samples(t[:2], values[:2, :1]),
         accelerometer=Samples(t, values * 4), sun=Samples(t[1:], values[1:]),
         position=Samples(t, values[:, :2] * 5),
+        cause_names=("total_z", "total_sd_z"), torque_by_cause=Samples(t[2:], values[2:, 1:]),
     )  # fmt: skip
     write_recording(first, tmp_path / "run.mcap")
     again = read_recording(tmp_path / "run.mcap")
     assert again.mass_names == first.mass_names
     assert again.device_names == first.device_names
+    assert again.cause_names == first.cause_names
     for name in CHANNELS[1:]:
         np.testing.assert_array_equal(getattr(again, name).t, getattr(first, name).t)
         np.testing.assert_array_equal(getattr(again, name).values, getattr(first, name).values)

@@ -24,6 +24,12 @@ DEVICES = st.lists(
     max_size=4,
     unique=True,
 )
+CAUSES = st.lists(
+    st.from_regex(r"(gravity|sag|moves|total)_(sd_)?[xyz]", fullmatch=True),
+    min_size=1,
+    max_size=4,
+    unique=True,
+)
 # Not in SI in the file: to units in the last place.
 ULP = {"masses": 2, "field": 2, "devices": 4}
 
@@ -51,6 +57,7 @@ def channels(draw: st.DrawFn) -> dict[str, Any]:
     attitude = Samples(times(rng, n), exponential(turns)) if draw(st.booleans()) else None
     names = tuple(draw(NAMES)) if draw(st.booleans()) else ()
     devices = tuple(draw(DEVICES)) if draw(st.booleans()) else ()
+    causes = tuple(draw(CAUSES)) if draw(st.booleans()) else ()
     return {
         "attitude": attitude,
         "rate": vectors(0.1) if attitude is None or draw(st.booleans()) else None,
@@ -65,6 +72,8 @@ def channels(draw: st.DrawFn) -> dict[str, Any]:
         "lamp": vectors(1.0, 1) if draw(st.booleans()) else None,
         "accelerometer": vectors(9.8) if draw(st.booleans()) else None,
         "sun": vectors(1.0) if draw(st.booleans()) else None,
+        "cause_names": causes,
+        "torque_by_cause": vectors(1e-6, len(causes)) if causes else None,
     }
 
 
@@ -72,6 +81,7 @@ def assert_same(again: Recording, first: Recording) -> None:
     """Every channel to the last bit; what is not in SI in the file, to a few units of the last."""
     assert again.mass_names == first.mass_names
     assert again.device_names == first.device_names
+    assert again.cause_names == first.cause_names
     for name in CHANNELS:
         ours, theirs = getattr(again, name), getattr(first, name)
         assert (ours is None) == (theirs is None)

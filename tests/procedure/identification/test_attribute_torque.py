@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.model.defects import Contact
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import BODY, NORMAL_95, Estimate
+from equipoise.model.event import Event
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.torque_reasons import TorqueReason
 from equipoise.model.recording import window
@@ -14,6 +16,7 @@ from equipoise.procedure.identification.attribute_torque import attribute_torque
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.simulation.carried_out import recorded
 from equipoise.study.true_torque import TrueTorqueBench
+from tests.support import thorough
 from verification.torque_by_cause import KINDS
 from verification.torque_by_cause import testbed_of as table_of
 
@@ -94,3 +97,25 @@ def test_an_estimate_of_an_impossible_body_is_refused(found):
     changed[k] = replace(changed[k], value=10.0)
     with pytest.raises(InputError, match="no body can have"):
         attribute_torque(recording, testbed, replace(estimate, parameters=tuple(changed)))
+
+
+@thorough.whole
+def test_a_touch_is_a_contact_of_its_second():
+    """An impulse of 2 mN m s about a level axis is a mean of 2 mN m within that second alone."""
+    testbed = table_of(AIR)
+    assert testbed.truth is not None
+    touch = Contact(12.4, np.array([2e-3, 0.0, 0.0]))
+    testbed = replace(testbed, truth=replace(testbed.truth, contacts=(touch,)))
+    recording = recorded(TrueTorqueBench(testbed, 108), 20.0, ((8.5, {"x1": 2e-3}),))
+    *_, last = identify(recording, testbed, IdentifyOptions("trajectory"))
+    values, sd = attribute_torque(recording, testbed, last.estimate).of("contacts")
+    assert np.linalg.norm(values[12]) == pytest.approx(2e-3, rel=0.1)
+    assert np.linalg.norm(values[12]) > 10 * np.linalg.norm(sd[12])
+    assert np.abs(np.delete(values, 12, axis=0)).max() == 0.0
+
+
+def test_an_event_that_air_explains_as_well_is_none(found):
+    _, recording, testbed, estimate = found
+    noted = Event("impulse", 12.4, 0.01, np.zeros(3), np.eye(3), 40.0)
+    torque = attribute_torque(recording, testbed, replace(estimate, events=(noted,)))
+    assert "contacts" not in torque.causes

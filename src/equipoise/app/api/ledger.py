@@ -1,13 +1,16 @@
 """Ledger: the disturbance torque of each cause, second by second."""
 
+from pathlib import Path
+
 from equipoise.app.arguments import inputs
+from equipoise.io.exchange.estimate_file import read_estimate
 from equipoise.model.estimate import Estimate
 from equipoise.model.torque_by_cause import TorqueByCause
 from equipoise.procedure.identification.attribute_torque import attribute_torque
 
 
 def ledger(
-    recording: inputs.AnyRecording, estimate: Estimate, testbed: inputs.AnyTestbed
+    recording: inputs.AnyRecording, estimate: Estimate | str | Path, testbed: inputs.AnyTestbed
 ) -> TorqueByCause:
     """Return what each cause added to the torque on a platform, with its 95 % band.
 
@@ -20,8 +23,8 @@ def ledger(
     recording
         Recording, or its file.
     estimate
-        Estimate of ``identify``, of this recording or of another one of the platform. Its terms
-        decide which causes are distinguished.
+        Estimate of ``identify``, of this recording or of another one of the platform, or the folder
+        of its run. Its terms decide which causes are distinguished.
     testbed
         Testbed, its file, or a preset's name.
 
@@ -32,4 +35,5 @@ def ledger(
         and an estimate without inertia and centre of mass.
     """
     bed = inputs.testbed_from(testbed)
-    return attribute_torque(inputs.recording_from(recording, bed), bed, estimate)
+    found = estimate if isinstance(estimate, Estimate) else read_estimate(estimate)
+    return attribute_torque(inputs.recording_from(recording, bed), bed, found)

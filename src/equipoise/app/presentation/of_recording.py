@@ -11,12 +11,13 @@ from equipoise.app.text.blocks import table as text_table
 from equipoise.app.text.json_lists import CHANNELS as DOCUMENT
 from equipoise.app.text.json_shape import View
 from equipoise.model.arrays import Floats
-from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.recording import CHANNELS, Recording, Samples, column_names
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 AXES = ("x", "y", "z")
+SHOWN = 12  # columns of a channel that a line names; chosen
 UNITS = {
     "rate": "rad/s",
     "masses": "m",
@@ -26,6 +27,7 @@ UNITS = {
     "temperature": "degC",
     "accelerometer": "m/s2",
     "position": "m",
+    "torque_by_cause": "N m",
 }
 PARTS = {
     "attitude": ("w", "x", "y", "z"),
@@ -50,9 +52,13 @@ def channels(recording: Recording) -> dict[str, Samples]:
 
 def parts(recording: Recording, channel: str) -> tuple[str, ...]:
     """Return what the columns of a channel are called."""
-    if channel == "masses":
-        return recording.mass_names
-    return recording.device_names if channel == "devices" else PARTS[channel]
+    return PARTS[channel] if channel in PARTS else column_names(recording, channel)
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    """Return names for a line of text, without those that do not fit."""
+    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+    return ", ".join(names[:SHOWN]) + more
 
 
 def lines(recording: Recording) -> Iterator[str]:
@@ -61,7 +67,7 @@ def lines(recording: Recording) -> Iterator[str]:
     yield f"Recording of {recording.source or 'no file'}: {_span(recording)}"
     for name, rows in found.items():
         pace = f", one in {rows.period:.3g} s" if len(rows) > 1 else ""
-        names = ", ".join(parts(recording, name))
+        names = _listed(parts(recording, name))
         yield f"  {name:11s} {len(rows)} rows of {names}{pace}"
 
 
@@ -76,7 +82,7 @@ def _span(recording: Recording) -> str:
 def blocks(recording: Recording) -> Blocks:
     """Return a row a channel, and what reading the file corrected."""
     rows = (
-        (name, ", ".join(parts(recording, name)), str(len(c)), f"{c.t[0]:.4g}", f"{c.t[-1]:.6g}")
+        (name, _listed(parts(recording, name)), str(len(c)), f"{c.t[0]:.4g}", f"{c.t[-1]:.6g}")
         for name, c in channels(recording).items()
     )
     columns = Column("channel"), prose("of"), number("rows"), number("from", "s"), number("to", "s")

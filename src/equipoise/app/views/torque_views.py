@@ -20,11 +20,10 @@ from equipoise.app.text.estimate_text import estimate_tables, outcome_claim
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.json_torque import LEDGER
 from equipoise.app.text.run_blocks import reason_items
+from equipoise.io.columns.cause_columns import cause_column
 from equipoise.model.arrays import Series1
 from equipoise.model.torque_by_cause import TorqueByCause
 from equipoise.model.units import UN_M
-
-AXES = ("x", "y", "z")
 
 
 def output_of(done: AttributedTorque) -> Output:
@@ -85,12 +84,7 @@ def cause_table(torque: TorqueByCause) -> Table:
 
 def columns_of(torque: TorqueByCause) -> dict[str, Series1]:
     """Return the torque of each cause as columns, SI, a row an interval."""
-    found = {"t_s": torque.t}
-    for course in torque.courses:
-        for k, axis in enumerate(AXES):
-            found[f"torque_{course.name}_{axis}_N_m"] = course.torque[:, k]
-            found[f"torque_{course.name}_sd_{axis}_N_m"] = course.sd[:, k]
-    return found
+    return {"t_s": torque.t} | {cause_column(name): c for name, c in torque.columns.items()}
 
 
 def csv_of(torque: TorqueByCause) -> str:

@@ -10,7 +10,8 @@ from equipoise.model.recording import CHANNELS, Recording, Samples
 
 GAP = 3.0  # median intervals; chosen: one missed row makes 2, two make 3
 NAMED = 5  # gaps that are named one by one; chosen: a screen
-SPOKEN = {"momentum": "stored momentum", "torque": "known torque", "field": "magnetic field"}
+SPOKEN = {"momentum": "stored momentum", "torque": "known torque", "field": "magnetic field",
+          "torque_by_cause": "torque by cause"}  # fmt: skip
 UNEVEN = 0.1  # of the median interval, as a robust scatter, before it is reported (chosen)
 
 

@@ -10,7 +10,8 @@ other.
 
 Priors are those of the fit: J and com are as the testbed says where the estimate does not see them
 all, or as an estimate of another record says. A term that the testbed does not declare is as large
-as on benches.
+as on benches, or does not act (``term_odds``); an event that a wandering torque explains as well is
+none (``earned_events``).
 
 Cannot see which of two causes acts where they act alike. Near level, that is a constant torque and
 the centre of mass across gravity: their bands are wide, that of the sum is not.
@@ -38,6 +39,7 @@ from equipoise.estimation.torque_by_cause.by_cause import (
     steps_of,
 )
 from equipoise.estimation.torque_by_cause.closure import closure_of
+from equipoise.estimation.torque_by_cause.earned_events import earned
 from equipoise.estimation.torque_by_cause.posed_record import (
     CARRIER,
     about,
@@ -50,6 +52,7 @@ from equipoise.estimation.torque_by_cause.process_sizes import (
     mixed,
     weighed,
 )
+from equipoise.estimation.torque_by_cause.term_odds import alternatives, doubted
 from equipoise.model.arrays import Series1
 from equipoise.model.estimate import BODY, Estimate
 from equipoise.model.mass_properties import MassProperties
@@ -106,11 +109,13 @@ def torque_by_cause(recording: Recording, testbed: Testbed, estimate: Estimate) 
     fitted = about(problem, points)
     for _ in range(ROUNDS):
         by = coordinates_of(fitted, testbed.up, constant)
-        step = mean_course(weighed(chain_of(fitted, prior, by), coarsely=True))
+        chain = earned(chain_of(fitted, prior, by))
+        models = alternatives(chain, doubted(fitted, chain, testbed.disturbances))
+        step = mean_course(weighed(models, coarsely=True))
         fitted = about(problem, points_at(fitted, by, step))
     by = coordinates_of(fitted, testbed.up, constant)
-    chain = chain_of(fitted, prior, by)
-    found = weighed(chain)
+    chain = earned(chain_of(fitted, prior, by))
+    found = weighed(alternatives(chain, doubted(fitted, chain, testbed.disturbances)))
     rows = mixed(found, impulses_of(fitted, chain, by, edges), INTERVAL)
     closure = closure_of(fitted, steps_of(by, mean_course(found)), edges, rows.total)
     there = [

@@ -37,7 +37,7 @@ from equipoise.model.estimate import COM
 from equipoise.model.estimate import RATE as RATES
 from equipoise.model.mass_properties import parallel_axis
 
-EVENT_SD = 1.0  # rad/s, m: so wide that it decides nothing
+TOUCH, SHIFT = 1e-2, 1e-4  # rad/s, m, chosen: one sd of jumps; what rows tell is finer by far
 
 
 class Rows(NamedTuple):
@@ -108,7 +108,7 @@ def chain_of(fitted: Fitted, prior: Prior, by: Coordinates) -> Chain:
         by.torque,
         gaps_of(fitted, S.shape[1]),
         tuple(event_coordinates(jump, layout) for jump in problem.jumps),
-        EVENT_SD,
+        tuple(SHIFT if COM[0] in jump.names else TOUCH for jump in problem.jumps),
         both,
         S.T @ information @ off,
     )

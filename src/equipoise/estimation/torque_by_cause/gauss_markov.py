@@ -49,9 +49,10 @@ class Chain(NamedTuple):
     torque: Series  # (K, 3) N m, nu of the points about which it is linear
     gaps: Floats  # (K - 1, n) o, but for the torque's coordinates
     events: tuple[Ints, ...]  # (K - 1) coordinates that an event may change at each cut
-    event_sd: float  # of these, so wide that it decides nothing
+    event_sd: tuple[float, ...]  # (K - 1) of these, as wide as events are
     prior: Square  # (n, n) information, without the torque's
     prior_score: Floats  # (n,)
+    height: float = 0.0  # -2 ln of how high the prior is at the points, less what models share
 
 
 class Process(NamedTuple):
@@ -97,7 +98,7 @@ def step_at(chain: Chain, k: int, process: Process) -> Step:
     offset = chain.gaps[k].copy()
     offset[chain.carrier] = stay * chain.torque[k] - chain.torque[k + 1]
     spread = process.sd**2 * -np.expm1(-2 * chain.seconds[k] / process.correlation)
-    weight = np.append(np.full(3, 1 / spread), np.full(len(events), chain.event_sd**-2))
+    weight = np.append(np.full(3, 1 / spread), np.full(len(events), chain.event_sd[k] ** -2))
     return Step(F, np.append(chain.carrier, events), offset, weight)
 
 
@@ -140,7 +141,7 @@ def backward(chain: Chain, process: Process) -> tuple[Square, Floats, float, Ste
 def improbability(chain: Chain, process: Process) -> float:
     """Return -2 ln of how probable the rows are with this torque, but for a constant."""
     try:
-        return backward(chain, process)[2]
+        return backward(chain, process)[2] + chain.height
     except np.linalg.LinAlgError:
         return np.inf
 

@@ -28,6 +28,7 @@ from equipoise.model.arrays import Floats
 SIZES = 10.0 ** (np.arange(-30, -13) / 4)  # N m, chosen: 3e-8 to 3e-4, a quarter decade each
 CORRELATIONS = (2.0, 6.0, 20.0, 60.0, 200.0)  # s, chosen: drafts to slow air supply
 DECADES_SD, USUAL = 1.0, 3e-6  # chosen: most benches have 1e-6 to 1e-5 N m
+COARSE = 4  # chosen: decades of sd, and two correlation times
 COUNTS = 0.01  # chosen: a process of less weight than this, of the greatest, is left out
 
 
@@ -44,17 +45,31 @@ def prior_share(process: Process) -> float:
     return float(np.exp(-0.5 * (np.log10(process.sd / USUAL) / DECADES_SD) ** 2))
 
 
-def weighed(chain: Chain, coarsely: bool = False) -> tuple[Weighed, ...]:
-    """Return the processes that the record leaves, with their courses; weights sum to 1."""
-    skip = 4 if coarsely else 1
-    processes = [Process(float(s), T) for s in SIZES[::skip] for T in CORRELATIONS[::skip]]
-    improbable = np.array([improbability(chain, process) for process in processes])
-    share = np.array([prior_share(p) for p in processes])
+def grid(skip: int = 1) -> list[Process]:
+    """Return the processes among which a record weighs, or every so many of sizes and times."""
+    return [Process(float(s), T) for s in SIZES[::skip] for T in CORRELATIONS[::skip]]
+
+
+def least_improbability(chain: Chain) -> float:
+    """Return -2 ln of how probable the rows are with the torque that suits them best."""
+    return min(improbability(chain, process) for process in grid(COARSE))
+
+
+def weighed(chains: Sequence[Chain], coarsely: bool = False) -> tuple[Weighed, ...]:
+    """Return the processes that the record leaves, with their courses; weights sum to 1.
+
+    Chains are models of one record, at the odds that ``term_odds`` gives them.
+    """
+    trials = [(c, process) for c in chains for process in grid(COARSE if coarsely else 1)]
+    improbable = np.array([improbability(chain, process) for chain, process in trials])
+    share = np.array([prior_share(process) for _, process in trials])
     share *= np.exp(-0.5 * (improbable - improbable.min()))
     kept = np.flatnonzero(share >= COUNTS * share.max())
     total = float(share[kept].sum())
     return tuple(
-        Weighed(processes[k], float(share[k]) / total, smoothed(chain, processes[k])) for k in kept
+        Weighed(process, float(share[k]) / total, smoothed(chain, process))
+        for k in kept
+        for chain, process in (trials[k],)
     )
 
 

@@ -28,11 +28,11 @@ class Euler:
 
 @dataclass(frozen=True, slots=True)
 class NamedColumn:
-    """A mass or a device, as a recording names it ('x1', 'wheel:x'), and what it reported."""
+    """A column that a recording names: of a mass 'x1', a device 'wheel:x', a cause 'gravity_x'."""
 
     name: str
     column: str
-    factor: float  # to SI: m, or rad/s, rad, A m^2, T or N m, see ``model.devices``
+    factor: float  # to SI: m, N m, or what ``model.devices`` states
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +67,7 @@ class ColumnMap:
     accelerometer: Columns | None = None
     sun: Columns | None = None  # a unit vector, of body axes to a lamp
     position: Columns | None = None  # of P, laboratory: x, y, or three of the table's axes
+    torque_by_cause: tuple[NamedColumn, ...] = ()
     lab_up: str = "z"  # the laboratory axis of the table that points up
     body: tuple[str, str, str] = ("x", "y", "z")  # our body axes in terms of the table's
     inverse: bool = False  # the attitude turns laboratory into body components
@@ -88,5 +89,5 @@ class ColumnMap:
         """Return every column that the map takes."""
         groups = (*self.sensed, self.momentum, self.torque, self.field, self.temperature, self.lamp,
                   self.accelerometer, self.sun, self.position)  # fmt: skip
-        single = {each.column for each in (*self.masses, *self.devices)}
+        single = {c.column for c in (*self.masses, *self.devices, *self.torque_by_cause)}
         return frozenset(single.union(*(each.names for each in groups if each is not None)))

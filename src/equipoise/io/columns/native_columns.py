@@ -4,6 +4,7 @@
     wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  cage_<name>_uT  jet_<name>_N_m
     field_x_uT ...
     temperature_degC  lamp_power  accel_x_m_s2 ...  sun_x ...  position_x_mm position_y_mm
+    torque_<cause>_x_N_m ...  torque_<cause>_sd_x_N_m ...
 
 One table for all channels; a cell is blank where its channel has no row at that time.
 """
@@ -14,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from equipoise.io.columns.cause_columns import cause_column, cause_of
 from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import column_of, device_of, wanted_column
 from equipoise.model.arrays import Floats, Series1
@@ -67,8 +69,9 @@ def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
         raise InputError(f"{source}, header", f"no column '{TIME}'", wanted)
     masses = [match for match in map(MASS.fullmatch, names) if match]
     devices = [device for device in map(device_of, names) if device]
+    causes = [cause for cause in map(cause_of, names) if cause]
     ours = chain.from_iterable(group for group, _ in GROUPS.values())
-    known = [TIME, *ours, *(m[0] for m in masses), *(d.column for d in devices)]
+    known = [TIME, *ours, *(m[0] for m in masses), *(e.column for e in (*devices, *causes))]
     _check_names(names, known, source)
     groups: dict[str, Any] = {
         channel: _group(names, group, source, unit) for channel, (group, unit) in GROUPS.items()
@@ -77,6 +80,7 @@ def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
         time=(Columns((TIME,)),),
         masses=tuple(NamedColumn(match[1], match[0], MM) for match in masses),
         devices=tuple(devices),
+        torque_by_cause=tuple(causes),
         native=True,
         notes=left_aside(names, known),
         **groups,
@@ -111,6 +115,7 @@ def native_columns(recording: Recording) -> dict[str, Series1]:
         (recording.accelerometer, ACCELEROMETER, 1.0),
         (recording.sun, SUN, 1.0),
         (recording.position, POSITION, 1 / MM),
+        (recording.torque_by_cause, tuple(map(cause_column, recording.cause_names)), 1.0),
     )
     present = [(c, names, unit) for c, names, unit in channels if c is not None and len(c)]
     if not present:

@@ -4,7 +4,7 @@ Columns have the names of our own files, all in SI:
 
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_m  h_x_N_m_s ...  torque_x_N_m ...
     wheel_<name>_rad_s  gimbal_<name>_rad  dipole_<name>_A_m2  jet_<name>_N_m  field_x_T ...
-    temperature_degC  lamp_power  accel_x_m_s2 ...  sun_x ...
+    temperature_degC  lamp_power  accel_x_m_s2 ...  sun_x ...  torque_<cause>_x_N_m ...
 
 so that a column map can name them, and what tables need set right is set right once, for all.
 """
@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from equipoise.io.columns.cause_columns import cause_column
 from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import si_column
 from equipoise.io.columns.native_columns import (
@@ -34,7 +35,7 @@ from equipoise.io.files.reading_budget import Meter
 from equipoise.io.formats.clock_units import seconds
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError
-from equipoise.model.recording import INPUTS
+from equipoise.model.recording import INPUTS, NAMED
 
 FIELD = ("field_x_T", "field_y_T", "field_z_T")
 POSITION = ("position_x_m", "position_y_m")
@@ -51,7 +52,7 @@ class LogChannel:
     name: str  # of ``model.recording.CHANNELS``
     ns: Ints  # times of the log's clock
     values: Floats  # (n, k), SI
-    names: tuple[str, ...] = ()  # of masses or devices
+    names: tuple[str, ...] = ()  # of masses, devices or causes
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -62,6 +63,8 @@ class LogChannel:
             return tuple(f"mass_{name}_m" for name in self.names)
         if self.name == "devices":
             return tuple(map(si_column, self.names))
+        if self.name == "torque_by_cause":
+            return tuple(map(cause_column, self.names))
         return GROUPS[self.name]
 
 
@@ -108,7 +111,7 @@ def log_map(
     here = {channel.name: channel for channel in channels if len(channel.ns)}
     known = {each: Columns(channel.columns) for each, channel in here.items()}
     groups: dict[str, Any] = {each: known.get(each) for each in GROUPS}
-    for each in ("masses", "devices"):
+    for each in NAMED:
         named = zip(here[each].names, here[each].columns, strict=True) if each in here else ()
         groups[each] = tuple(NamedColumn(label, column, 1.0) for label, column in named)
     return ColumnMap(

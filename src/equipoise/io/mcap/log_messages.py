@@ -7,7 +7,7 @@ Topics, all times in ns on the clock of the log (UTC of a real bench):
     /log        foxglove.Log: the sentence of each event, for people
     /events     JSON {"kind", "sentence", "data"}: the same events, for programs
     /rate /masses /momentum /torque /devices /field /temperature /lamp /accelerometer /sun
-    /position
+    /position /torque_by_cause
                 JSON, one number for each name, the unit at its end: {"x_rad_s": 0.01, ...}
     /gravity_torque
                 JSON: what a controller is told to feed forward (``io.stream.gravity_message``)
@@ -30,7 +30,7 @@ from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.foxglove_scene import BODY, LABORATORY, Scene
 from equipoise.io.stream import gravity_message
 from equipoise.model.errors import InputError
-from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.recording import CHANNELS, NAMED, Recording, Samples, column_names
 from equipoise.model.testbed import Testbed
 
 ATTITUDE_TOPIC, SCENE_TOPIC, LOG_TOPIC, EVENT_TOPIC = "/attitude", "/scene", "/log", "/events"
@@ -55,11 +55,13 @@ def topic_of(channel: str) -> str:
 
 
 def value_names(channel: str, names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return what a topic calls its numbers; ``names`` are those of masses or devices."""
+    """Return what a topic calls its numbers; ``names`` are those of the channel's columns."""
     if channel == "masses":
         return tuple(f"{name}_m" for name in names)
     if channel == "devices":
         return tuple(map(si_column, names))
+    if channel == "torque_by_cause":
+        return tuple(f"{name}_N_m" for name in names)
     if channel in AS_IN_TABLES:
         return AS_IN_TABLES[channel]
     return tuple(f"{axis}_{XYZ_UNITS[channel]}" for axis in "xyz")
@@ -97,8 +99,7 @@ class Topics:
             if channel == "attitude":
                 self._attitude(samples)
             else:
-                named = {"masses": recording.mass_names, "devices": recording.device_names}
-                self._numbers(channel, named.get(channel, ()), samples)
+                self._numbers(channel, column_names(recording, channel), samples)
         if self._scene is not None:
             self._shown(self._scene.moved(recording))
 
@@ -175,7 +176,7 @@ class Topics:
     ) -> tuple[tuple[str, ...], Send]:
         """Return what a topic calls its numbers, and the topic, opened when it is first met."""
         topic, named = topic_of(name), named or tuple(str(k + 1) for k in range(width))
-        if name not in ("masses", "devices"):
+        if name not in NAMED:
             named = ()
         keys = value_names(name, named)
         if topic not in self._open:

@@ -136,7 +136,7 @@ def _our_channel(name: str, channel: Any, found: Salvage) -> LogChannel:
 
 
 def _names(channel: Any) -> tuple[str, ...]:
-    """Return the names of masses or devices; none if they are not listed."""
+    """Return the names of a channel's columns; none if they are not listed."""
     try:
         named: Any = json.loads(channel.metadata.get(NAMES_KEY, "[]"))
     except (ValueError, RecursionError):

@@ -1,5 +1,6 @@
 """A table of whatever origin and its column map, to a Recording with notes."""
 
+from collections.abc import Container
 from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Any
@@ -29,10 +30,10 @@ from equipoise.io.recording.rotation_columns import as_quaternions, blank_note, 
 from equipoise.io.recording.time_stamps import gap_notes, without_duplicates
 from equipoise.model.arrays import Bools, Ints
 from equipoise.model.errors import InputError
-from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.recording import CHANNELS, NAMED, Recording, Samples
 
 Notes = tuple[str, ...]
-SCALARS = ("masses", "devices", "temperature", "lamp")
+SCALARS = ("masses", "devices", "temperature", "lamp", "torque_by_cause")  # not of these axes
 FEWEST = 3  # rows of a sensor: two say nothing of how an angle's rate changes
 EPOCH = 1e6  # s: a clock beyond twelve days counts from a date, not from the run (chosen)
 
@@ -119,14 +120,22 @@ def rows_of(table: Table, columns: ColumnMap, bad_rows: float) -> Recording:
     return Recording(
         **samples,
         attitude_norm=_samples(norm),
-        mass_names=tuple(mass.name for mass in columns.masses) if samples["masses"] else (),
-        device_names=tuple(each.name for each in columns.devices) if samples["devices"] else (),
+        **names_of(columns, [name for name, each in samples.items() if each]),
         source=table.source,
         free_from=columns.free_from,
         notes=(*table.notes, *columns.notes, *left_out, *clock.notes, *from_zero, *notes),
         gaps=tuple(note for c in sensors if c is not None for note in gap_notes(c)),
         unread=unread_inputs(table, columns),
     )
+
+
+def names_of(columns: ColumnMap, channels: Container[str]) -> dict[str, Any]:
+    """Return the names of the columns of channels that there are, as a recording has them."""
+    return {
+        field: tuple(each.name for each in getattr(columns, channel))
+        for channel, field in NAMED.items()
+        if channel in channels
+    }
 
 
 def _rows(table: Table, columns: ColumnMap, clock: Clock) -> tuple[Rows, Notes]:

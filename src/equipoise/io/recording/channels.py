@@ -16,7 +16,7 @@ from equipoise.io.toml.plausible import SIZES
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Bools, Floats, Ints, Series1
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.recording import CHANNELS, Samples
+from equipoise.model.recording import CHANNELS, NAMED, Samples
 
 # Channels of readings that scatter; a setting may stand at 999 for long.
 SENSORS = frozenset({"attitude", "rate", "field", "accelerometer", "sun", "position"})
@@ -34,6 +34,7 @@ LARGEST = {
     "accelerometer": SIZES["acceleration"],
     "sun": SIZES["number"],
     "position": SIZES["length"],
+    "torque_by_cause": SIZES["torque"],
 }
 
 
@@ -89,11 +90,11 @@ def columns_of(columns: ColumnMap, name: str) -> Columns | None:
         angles = None if columns.euler is None else columns.euler.columns
         return angles or columns.matrix or columns.rotation_vector or columns.quaternion
     found: Any = getattr(columns, name)
-    return _together(found) if name in ("masses", "devices") else found
+    return _together(found) if name in NAMED else found
 
 
 def _together(columns: tuple[NamedColumn, ...]) -> Columns | None:
-    """Return the columns of all masses, or of all devices, as one group."""
+    """Return the columns of all masses, devices or causes as one group."""
     if not columns:
         return None
     return Columns(tuple(c.column for c in columns), tuple(c.factor for c in columns))

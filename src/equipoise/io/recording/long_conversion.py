@@ -22,7 +22,7 @@ from equipoise.io.columns.text_times import with_times_as_numbers
 from equipoise.io.columns.unread_inputs import unread_inputs
 from equipoise.io.files.atomic_file import whole_file
 from equipoise.io.recording.attitude_columns import flip_note, unit_quaternions
-from equipoise.io.recording.build_recording import check_count, sound_rows
+from equipoise.io.recording.build_recording import check_count, names_of, sound_rows
 from equipoise.io.recording.channels import Channel, Rows, read_channel
 from equipoise.io.recording.format_registry import content_of, format_of, table_on_disk
 from equipoise.io.recording.piece_clock import PieceClock, piece_clock
@@ -113,13 +113,8 @@ class _Pieces:
         return (*facts.of_attitude, *flip_note(self._flips), *facts.of_others)
 
     def _recording(self, channels: dict[str, Samples]) -> Recording:
-        columns, given = self._columns, cast("dict[str, Any]", channels)
-        return Recording(
-            **given,
-            mass_names=tuple(e.name for e in columns.masses) if "masses" in channels else (),
-            device_names=tuple(e.name for e in columns.devices) if "devices" in channels else (),
-            source=self._table.source,
-        )
+        given = cast("dict[str, Any]", channels) | names_of(self._columns, channels)
+        return Recording(**given, source=self._table.source)
 
     def _channel(self, facts: ChannelFacts, source: Rows) -> Channel | None:
         channel, _ = read_channel(source, facts.name, facts.columns)

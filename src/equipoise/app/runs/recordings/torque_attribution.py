@@ -37,6 +37,26 @@ def run(
 ) -> AttributedTorque:
     """Identify the platform from a recording that fits the testbed, and divide its torque."""
     estimate = identified(recording, testbed, options, waiting, gate).estimate
+    return divided(recording, testbed, estimate, waiting)
+
+
+def run_with(
+    recording: Recording,
+    testbed: Testbed,
+    estimate: Estimate,
+    waiting: Waiting = QUIET,
+    gate: Gate = CLOSED,
+) -> AttributedTorque:
+    """Divide the torque on a platform whose estimate there is already."""
+    with waiting.doing("examining the recording"):
+        gate.findings(recording, testbed)
+    return divided(recording, testbed, estimate, waiting)
+
+
+def divided(
+    recording: Recording, testbed: Testbed, estimate: Estimate, waiting: Waiting
+) -> AttributedTorque:
+    """Divide the torque on a platform among its causes."""
     with waiting.doing("dividing the torque by cause"):
         torque = attribute_torque(recording, testbed, estimate)
     return AttributedTorque(testbed, recording, estimate, torque)
