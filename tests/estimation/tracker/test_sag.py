@@ -19,9 +19,23 @@ from equipoise.estimation.tracker.filter_kernel import predict
 from equipoise.estimation.tracker.kernel_records import new_tools
 from equipoise.estimation.tracker.known_sag import SAG, with_sag
 from equipoise.estimation.tracker.linearisation_point import linear_in
-from equipoise.estimation.tracker.predict_correct import COM
+from equipoise.estimation.tracker.predict_correct import (
+    COM,
+    carry,
+    carry_beside,
+    expect,
+    predict_covariance,
+    shrink,
+    weigh,
+)
 from equipoise.estimation.tracker.sag import bend, bend_signatures, bending
-from equipoise.estimation.tracker.stored_covariance import SAG_ROW, SIZE, WITH_SAG
+from equipoise.estimation.tracker.stored_covariance import (
+    DRIFT,
+    SAG_ROW,
+    SIZE,
+    WARM_ROW,
+    WITH_SAG,
+)
 from equipoise.estimation.tracker.tracker import (
     Params,
     filter_columns,
@@ -79,6 +93,42 @@ def test_r_is_displaced_and_its_covariance_with_it(sign):
     np.testing.assert_allclose(found, F @ P @ F.T, rtol=0, atol=1e-12)
     expected[7:10] += sign * displaced(1.0)[COM, SAG_ROW:] @ (expected[1 + SAG_ROW :] - C)
     np.testing.assert_allclose(end, expected)
+
+
+@pytest.mark.parametrize("first", [DRIFT, WARM_ROW], ids=["drift", "warmth"])
+def test_what_carries_r_on_carries_its_covariance_with_the_sag(first):
+    """P as F P F^T, F = E + 0.5 at (r, v) or (r, k)."""
+    root, F = np.random.default_rng(3).normal(size=(WITH_SAG, WITH_SAG)), np.eye(WITH_SAG)
+    P, work, found = root @ root.T, new_tools(True, WITH_SAG).work, np.zeros_like(root)
+    F[range(6, 9), range(first, first + 3)] = 0.5
+    stored.take(P, work.P)
+    carry(first, 0.5, np.zeros(1 + WITH_SAG), work.P)
+    carry_beside(first, 0.5, work)
+    stored.give(work.P, found)
+    np.testing.assert_allclose(found, F @ P @ F.T, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(("first", "second"), [(0, -1), (3, 15)], ids=["camera", "gyro"])
+def test_a_prediction_and_a_row_do_to_the_sag_what_kalman_says(first, second):
+    """P as Phi P Phi^T, then (E - K H) P with all 29 of the error state."""
+    rng = np.random.default_rng(4)
+    root, phi, full = rng.normal(size=(WITH_SAG, WITH_SAG)), rng.normal(size=(6, 15)), np.eye(29)
+    P, work, found = root @ root.T, new_tools(True, WITH_SAG).work, np.zeros_like(root)
+    stored.take(P, work.P)
+    full[:6, :15] = phi
+    still, flat = np.zeros(SIZE), np.pad(phi, ((0, 0), (0, 1))).ravel()
+    predict_covariance((1.0, 1.0, 1.0, 0.0, 0.0, 0.0), flat, still, 0.1, work)
+    P, H = full @ P @ full.T, np.zeros((3, WITH_SAG))
+    H[range(3), range(first, first + 3)] = 1.0
+    if second >= 0:
+        H[range(3), range(second, second + 3)] = 1.0
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + 0.7 * np.eye(3))
+    expect(first, second, 0.7, work)
+    weigh((0.3, -0.2, 0.5), work)
+    shrink(first, second, 0.7, work)
+    stored.give(work.P, found)
+    np.testing.assert_allclose(found, P - K @ H @ P, rtol=0, atol=1e-11 * np.abs(P).max())
+    np.testing.assert_allclose(work.x[:WITH_SAG], K @ [0.3, -0.2, 0.5], atol=1e-11)
 
 
 def test_signatures_of_events_are_displaced_alike():

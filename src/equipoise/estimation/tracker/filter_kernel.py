@@ -37,6 +37,7 @@ from equipoise.estimation.tracker.predict_correct import (
     apply,
     begin,
     carry,
+    carry_beside,
     lean,
     note,
     placed,
@@ -72,12 +73,13 @@ def predict(
     moving, work, t = tools.moving, tools.work, inputs.t
     y, phi, kelvins = moving.y, moving.phi, warmer(inputs.known, i)
     carry(WARM_ROW, kelvins, end, work.P)
-    sags = work.size > SIZE
     now = body_at(body, inputs.maps, t, inputs.known, i, 0.0)
     lapse = t[i + 1] - t[i]
     drifted = 0.5 * lapse if drifts(work.P) else 0.0
     carry(DRIFT, drifted, end, work.P)
-    if sags:
+    if work.size > SIZE:
+        carry_beside(WARM_ROW, kelvins, work)
+        carry_beside(DRIFT, drifted, work)
         halfway_down(end, lapse, moving)
         bend(moving.down, 1.0, body.torque, end, work)
     begin(now, end, y)
@@ -87,8 +89,9 @@ def predict(
     transition(now, body.mass, y, moving.step.fb, phi)
     predict_covariance(body.inertia, phi, model.walks, lapse, work)
     lean(now, phi, point, y, end)
-    if sags:
+    if work.size > SIZE:
         bend(moving.down, -1.0, body.torque, end, work)
+        carry_beside(DRIFT, drifted, work)
     carry(DRIFT, drifted, end, work.P)
     begin(now, end, y)
     return now

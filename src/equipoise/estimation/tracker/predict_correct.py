@@ -154,7 +154,7 @@ def carry(first: int, by: float, end: Floats, P: Floats) -> None:
     """Write r + c by, c the states from row ``first`` on, and F P F^T with F = E + by at (r, c).
 
     Drift carries r on by a time (s), warmth by kelvins. Of P only what is on and above the diagonal
-    is read and written.
+    is read and written; ``carry_beside`` is about the columns of a sag.
     """
     if by == 0.0:
         return
@@ -171,6 +171,16 @@ def carry(first: int, by: float, end: Floats, P: Floats) -> None:
         for j in range(COM_ROW + 3, SIZE):
             low, high = min(j, c), max(j, c)
             P[r * ROW + j] += by * P[low * ROW + high]
+
+
+@part
+def carry_beside(first: int, by: float, work: Work) -> None:
+    """Write what ``carry`` does to the covariance of r with a sag, if any."""
+    P = work.P
+    for i in range(3):
+        r, c = COM_ROW + i, first + i
+        for j in range(SIZE, work.size):
+            P[r * ROW + j] += by * P[c * ROW + j]
 
 
 @part
