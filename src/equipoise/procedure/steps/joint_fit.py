@@ -85,8 +85,8 @@ def as_it_sags(knowledge: Knowledge, testbed: Testbed) -> Knowledge:
     """Return the knowledge with elastic sag among what is estimated, where the testbed declares it.
 
     As large as benches have it: what the record's tilts do not show of it stays as uncertain, and
-    nothing is hidden for that. The search begins anew: where it ended as if the platform were stiff,
-    damping and drift stand for the sag.
+    nothing is hidden for that. The search begins anew, as damping and drift stood for the sag where
+    it ended before.
     """
     sag, recording = testbed.in_group("sag"), knowledge.recording
     if not sag:
