@@ -51,7 +51,7 @@ from equipoise.simulation.bench import SimulatedBench
 
 EVERY = 1.0  # s between decisions, chosen: an experiment that says hold waits no longer
 REPORTS = 200  # chosen: Steps with an estimate in one keeping, a minute between them at least
-SAVED = 60.0  # s between two files from which a keeping goes on
+SAVED = 60.0  # s between two files from which a keeping goes on, and reports on a dashboard
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
