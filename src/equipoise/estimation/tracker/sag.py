@@ -6,7 +6,7 @@
 
 So Phi need not know of C: dth and dw follow from those to r. What c0 does, the sag of the point
 that is linearised about, the propagator integrates with n as it turns; c - c0 acts to
-(w dt)^2 / 24 of itself, w being the rate: 4e-4 at the longest step.
+(w dt)^2 / 12 of itself, w being the rate: 8e-4 at the longest step (docs/derivations.md).
 
 The coefficients are constant: a structure does not change its stiffness in a day.
 
