@@ -56,13 +56,13 @@ def held(balanced):
     """Steps of the hold, and at every measurement: where it stood, and the true offset."""
     bench, knowledge = balanced
     start = begun(as_it_sags(knowledge, bench.testbed), bench.testbed)
-    seen = []
+    noted = []
 
     def note(found):
         true = bench.com - allowance(bench.sag, found.state.q, bench.testbed.up)
-        seen.append((found, true))
+        noted.append((found, true))
 
-    return bench, list(hold(bench, start, OPTIONS, note)), seen, start
+    return bench, list(hold(bench, start, OPTIONS, note)), noted, start
 
 
 def errors_of(found, true, bed):
@@ -84,16 +84,16 @@ def test_the_balancing_gives_the_sag_that_nobody_knew(balanced):
 
 
 def test_it_is_held_and_the_verdict_is_true(held):
-    _, steps, seen, _ = held
-    off = np.abs([true - OPTIONS.target for _, true in seen])
+    _, steps, noted, _ = held
+    off = np.abs([true - OPTIONS.target for _, true in noted])
     assert steps[-1].verdict.passed, steps[-1].sentence
     assert np.all(off <= OPTIONS.tolerance)
 
 
 def test_com_and_sag_are_within_what_is_stated_at_every_measurement(held):
     """4 sd at any of some hundred; 1.5 sd rms."""
-    bench, _, seen, _ = held
-    errors = np.array([errors_of(found, true, bench.testbed) for found, true in seen])
+    bench, _, noted, _ = held
+    errors = np.array([errors_of(found, true, bench.testbed) for found, true in noted])
     assert np.abs(errors).max() < 4.0
     assert np.sqrt(np.mean(errors**2)) < 1.5
 
@@ -136,8 +136,8 @@ def test_a_state_has_a_sag_where_it_was_estimated_alone(balanced, held):
 
 def test_it_goes_on_after_an_interruption_with_what_it_knew_of_the_sag(held, tmp_path):
     """Through the file: com and sag, and what they share, are as they were."""
-    bench, _, seen, _ = held
-    kept = kept_of(seen[-1][0])
+    bench, _, noted, _ = held
+    kept = kept_of(noted[-1][0])
     write_held(file_of(kept, bench.testbed, OPTIONS, 60.0), tmp_path)
     found = interrupted(tmp_path, bench.testbed)
     assert isinstance(found.goal, Goal)
