@@ -685,7 +685,7 @@ PROCEDURE = _of(
      "::test_a_mean_that_no_body_has_becomes_the_likeliest_one_that_can_be"),
     ("steps/joint_fit.py", 'CONSIDERED = (*GROUPS["viscous"], *DRIFT', "CONSIDERED = (*DRIFT",
      "procedure/balancing/test_undeclared_torques.py"),
-    ("steps/joint_fit.py", "among((*setup.considered, *ANOTHER))", "among(considered)",
+    ("steps/joint_fit.py", "among((*setup.considered, *ANOTHER))", "among(setup.considered)",
      "procedure/balancing/test_undeclared_torques.py"),
     ("balancing/run_law.py", "expected is not None and expected > end - now",
      "expected is not None and expected < end - now", "procedure/balancing/test_run_law.py"),

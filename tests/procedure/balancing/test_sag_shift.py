@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_coefficients, sag_matrix
+from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.known_sag import with_sag
 from equipoise.io.testbed.presets import read_preset
@@ -74,9 +74,3 @@ def test_a_state_as_a_stiff_one_has_the_acting_com_and_its_covariance():
     np.testing.assert_allclose(found.covariance[6:9, 6:9], expected, rtol=1e-10, atol=1e-20)
     np.testing.assert_array_equal(found.covariance[24:, 24:], state.covariance[24:, 24:])
     np.testing.assert_allclose(found.covariance[6:9, 24:], both - by @ state.covariance[24:, 24:])
-
-
-def test_coefficients_give_back_all_of_c_but_its_isotropic_part():
-    sag = some_sag(4)
-    found = sag_matrix(sag_coefficients(sag))
-    np.testing.assert_allclose(found, sag - np.trace(sag) / 3 * np.eye(3), atol=1e-18)
