@@ -59,7 +59,7 @@ def transport(P: Floats, point: Floats, end: Floats) -> None:
         point[k] = end[AT + k]
 
 
-@part
+@kernel
 def bent(point: Floats, end: Floats) -> float:
     """Return how far the sag is from that of the point, as ``distance`` has it for r; 0 without."""
     size, off = 0.0, 0.0

@@ -28,7 +28,7 @@ from equipoise.estimation.tracker.stored_covariance import (
     fill,
     lanes_of,
 )
-from equipoise.maths.kernels.compiled import part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints, Six, Triple
 
@@ -173,7 +173,7 @@ def carry(first: int, by: float, end: Floats, P: Floats) -> None:
             P[r * ROW + j] += by * P[low * ROW + high]
 
 
-@part
+@kernel
 def carry_beside(first: int, by: float, work: Work) -> None:
     """Write what ``carry`` does to the covariance of r with a sag, if any."""
     P = work.P

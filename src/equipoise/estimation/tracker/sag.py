@@ -10,6 +10,8 @@ that is linearised about, the propagator integrates with n as it turns; c - c0 a
 
 The coefficients are constant: a structure does not change its stiffness in a day.
 
+These are kernels of their own, not merged into the walk, which most platforms take without them.
+
 Cannot tell C from r where the platform does not tilt: at one n only r + C n turns it.
 """
 
@@ -20,12 +22,12 @@ from equipoise.estimation.tracker.kernel_records import Moving
 from equipoise.estimation.tracker.linearisation_point import AT
 from equipoise.estimation.tracker.predict_correct import Work
 from equipoise.estimation.tracker.stored_covariance import COM_ROW, ROW, SAG_ROW
-from equipoise.maths.kernels.compiled import part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Triple
 
 
-@part
+@kernel
 def halfway_down(end: Floats, lapse: float, moving: Moving) -> None:
     """Write n half-way through a step of ``lapse`` seconds, at the rate of its beginning."""
     y, half = moving.y, 0.5 * lapse
@@ -55,7 +57,7 @@ def add_to_row(r: int, c: int, by: float, work: Work) -> None:
         P[r * ROW + j] += by * P[min(j, c) * ROW + max(j, c)]
 
 
-@part
+@kernel
 def bend(n: Floats, sign: float, torque: tuple[float, ...], end: Floats, work: Work) -> None:
     """Write r + sign B(n) (c - c0), c0 among the coefficients of ``torque``, and its covariance."""
     for k in range(5):
@@ -66,7 +68,7 @@ def bend(n: Floats, sign: float, torque: tuple[float, ...], end: Floats, work: W
             add_to_row(COM_ROW + i, c, sign * column[i], work)
 
 
-@part
+@kernel
 def bend_signatures(n: Floats, sign: float, X: Floats) -> None:
     """Write F X, as events would have changed r and C."""
     for k in range(5):
