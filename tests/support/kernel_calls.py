@@ -24,6 +24,7 @@ from equipoise.estimation.output_error.solution import posed
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
 from equipoise.estimation.parameters.retraction import coordinates, step_work_for
 from equipoise.estimation.tracker.kernel_records import new_tools
+from equipoise.estimation.tracker.stored_covariance import SIZE
 from equipoise.maths.levenberg_marquardt import FIRST, GROWTH
 from equipoise.maths.local_motion import Window, weights_of
 from equipoise.maths.pseudo_inertia import from_inertia, slope_of_inertia, to_inertia
@@ -53,7 +54,7 @@ def calls() -> dict[str, Callable[[], object]]:
         "pieces_for": lambda: pieces_for(what.cuts, n, len(point)),
         "pass_for": lambda: pass_for(3, n),
         "work_for": lambda: work_for(3),
-        "new_tools": lambda: new_tools(True),
+        "new_tools": lambda: new_tools(True, SIZE),
         "step_work_for": lambda: step_work_for(n),
         "coordinates": lambda: coordinates(point, what.mass, what.slots),
         "to_inertia": lambda: to_inertia(six),

@@ -33,13 +33,6 @@ def sag_matrix(terms: Mapping[str, float]) -> Matrix3:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, -xx - yy]])
 
 
-def sag_coefficients(sag: Matrix3) -> dict[str, float]:
-    """Return the five coefficients (m) of C by name; its isotropic part has none."""
-    bent = sag - np.trace(sag) / 3 * np.eye(3)
-    found = (bent[0, 0], bent[1, 1], bent[0, 1], bent[0, 2], bent[1, 2])
-    return dict(zip(SAG_TERMS, map(float, found), strict=True))
-
-
 def downs(up: Vector3, tilt: float) -> tuple[Series3, Floats]:
     """Return directions of gravity within a tilt (rad) of level, and their weights, (n, 1)."""
     points, weights = np.polynomial.legendre.leggauss(NODES)

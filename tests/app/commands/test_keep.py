@@ -35,7 +35,9 @@ def test_a_platform_is_kept_and_reported(kept, strict_json):
     assert len(document["t_s"]) == 2
     off = np.abs(np.array(document["com_m"]) - document["truth_m"])
     assert np.all(off < 4 * np.array(document["sd_m"]) + 1e-7)
-    assert (folder / "report.html").is_file()
+    last = [step for step in document["steps"] if step["kind"] == "estimate"][-1]
+    assert [reason["code"] for reason in last["reasons"]] == ["com_at", "com_drifts"]
+    assert "What moves it, at the last report" in (folder / "report.html").read_text("utf-8")
     assert list(folder.glob("figures/kept_com*"))
 
 

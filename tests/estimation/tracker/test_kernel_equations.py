@@ -61,7 +61,7 @@ def table(flat: np.ndarray, rows: int) -> np.ndarray:
 
 def holding(P: np.ndarray, biased: bool = True):
     """Tools that hold a covariance; below its diagonal nothing that counts."""
-    work = new_tools(biased).work
+    work = new_tools(biased, SIZE).work
     stored.take(np.triu(P) + np.tril(np.full((SIZE, SIZE), 7.0), -1), work.P)
     return work
 
@@ -178,7 +178,7 @@ def test_a_gain_that_is_a_little_wrong_costs_the_second_order():
 @sensors
 def test_signature_is_what_two_filters_differ_by(first, second):
     """One of the two has a rate that jumped by v, the other an r that stepped: linear, so exact."""
-    rng, watch, tools = np.random.default_rng(5), new_watch(), new_tools(True)
+    rng, watch, tools = np.random.default_rng(5), new_watch(), new_tools(True, SIZE)
     P, H, v = covariance(6), pick(first, second), np.array([0.3, -0.2, 0.1])
     onsets.take_up(watch, 7.0)
     off = {0: np.zeros(SIZE), ONSETS: np.zeros(SIZE)}  # truth minus filter, by the hypothesis
@@ -211,7 +211,7 @@ def test_signature_is_what_two_filters_differ_by(first, second):
 
 def some_watch():
     """Onsets 30, 12 and 5 rows old, all their sums and signatures at random."""
-    rng, watch, room = np.random.default_rng(8), new_watch(), new_tools(True).room
+    rng, watch, room = np.random.default_rng(8), new_watch(), new_tools(True, SIZE).room
     for h in range(MANY):
         C = covariance(20 + h, 3)
         of(watch.C, h)[:] = 1e3 * C[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]

@@ -7,13 +7,16 @@ from equipoise.estimation.tracker.linearisation_point import (
     distance,
     doubt,
     doubt_of_shape,
+    moved,
     nearer,
     transport,
+    transport_sag,
 )
-from equipoise.estimation.tracker.stored_covariance import SIZE
+from equipoise.estimation.tracker.stored_covariance import SAG_ROW, SIZE, WITH_SAG
 
 POINT = np.array([2e-6, -3e-6, -80e-6, 0.35, 0.54, 0.85, 0.01, -0.02, 0.015])
 POSTERIOR = np.array([3e-6, -2e-6, -95e-6, 0.38, 0.50, 0.92, 0.02, -0.01, 0.0])
+SAG = np.array([5e-6, -3e-6, 1e-6, 2e-6, -4e-6])
 SPREAD = np.array([1e-5, 1e-5, 1e-5, 0.05, 0.05, 0.05, 0.02, 0.02, 0.02])
 
 
@@ -115,3 +118,29 @@ def test_scale_is_doubt_but_no_doubt_of_shape():
     P[6:15, 6:15] = 0.04 * np.outer(POINT, POINT)
     assert doubt(POINT, P) == pytest.approx(0.2)
     assert doubt_of_shape(POINT, P) < 1e-7
+
+
+def test_a_sag_scales_as_r_and_j_do():
+    """T takes x = (r, J, C) to x', and a change of x along itself stays one."""
+    point, new = np.append(POINT, SAG), np.append(POSTERIOR, 1.1 * SAG)
+    x = np.r_[6:15, SAG_ROW:WITH_SAG]
+    along = np.zeros(WITH_SAG)
+    along[x] = point
+    P, end = np.outer(along, along), np.zeros(1 + WITH_SAG)
+    end[7:16] = POSTERIOR
+    transport_sag(P, point, new)
+    transport(P, point, end)
+    expected = np.zeros(WITH_SAG)
+    expected[x] = new
+    expected = np.outer(expected, expected)
+    np.testing.assert_allclose(P, expected, rtol=0, atol=1e-12 * expected.max())
+    np.testing.assert_array_equal(point, new)
+
+
+def test_the_point_moves_when_the_sag_has_moved_by_as_much_as_r_may():
+    """3 % of |r|: beyond it the stiffness that the platform swings by is another."""
+    point, end = np.append(POINT, SAG), np.zeros(1 + WITH_SAG)
+    end[7:16], end[1 + SAG_ROW :] = POINT, SAG
+    assert moved(point, end) == 0.0
+    end[1 + SAG_ROW] += 0.06 * np.linalg.norm(POINT[:3])
+    assert moved(point, end) == pytest.approx(2.0)

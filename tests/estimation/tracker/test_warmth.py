@@ -27,7 +27,7 @@ STILL = Params("fed", *lamp.STILL)
 
 def test_signatures_of_events_are_displaced_alike():
     """X <- Phi F X, with Phi the unit matrix."""
-    watch, room = onsets.new_watch(), new_tools(True).room
+    watch, room = onsets.new_watch(), new_tools(True, SIZE).room
     watch.X[:] = np.random.default_rng(2).normal(size=watch.X.shape)
     X, phi = watch.X.reshape(SIZE, -1).copy(), np.zeros((6, 16))
     phi[range(6), range(6)] = 1.0

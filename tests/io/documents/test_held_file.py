@@ -8,8 +8,10 @@ import pytest
 from equipoise.io.documents.held_file import (
     FILE,
     PARAMETERS,
+    SAG,
     TERMS,
     HeldFile,
+    HeldSag,
     read_held,
     write_held,
 )
@@ -29,6 +31,12 @@ def test_it_comes_back_to_the_last_digit(tmp_path):
     assert read_held(tmp_path) == replace(HELD, left_s=1 / 3)
 
 
+def test_what_is_known_of_a_sag_comes_back_too(tmp_path):
+    sag = HeldSag([1e-6, 0.0, -2e-6, 1 / 3, 0.0], [[1 / 7] * (PARAMETERS + SAG)] * SAG)
+    write_held(replace(HELD, sag=sag), tmp_path)
+    assert read_held(tmp_path) == replace(HELD, sag=sag)
+
+
 @pytest.mark.parametrize(
     ("change", "where"),
     [
@@ -37,6 +45,7 @@ def test_it_comes_back_to_the_last_digit(tmp_path):
         ({"covariance": [[0.0]]}, "covariance"),
         ({"displacement_m": {"x": "far"}}, "displacement_m: x"),
         ({"drift_m_s": [0.0, 0.0, 1e999]}, "drift_m_s: 2"),
+        ({"sag": {"coefficients_m": [0.0] * 5, "covariance": [[0.0]]}}, "sag: covariance"),
         ({"more": 1}, "more"),
         ({"schema": "equipoise/held/9"}, "schema"),
     ],

@@ -9,8 +9,9 @@ from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.defects import TrueLamp
 from equipoise.model.units import UM
-from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold, first_posterior
+from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
 from equipoise.procedure.balancing.hold_posterior import standing
+from equipoise.procedure.balancing.hold_start import first_state
 from equipoise.procedure.steps.joint_fit import learn
 from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
@@ -65,7 +66,7 @@ def test_the_tracker_goes_on_under_a_lamp_that_is_on():
     bed = replace(bed, truth=replace(bed.truth, lamp=lit))
     bench = SimulatedBench(bed, 1)
     knowledge = learn(None, bench.read(100.0), bed)
-    state = first_posterior(knowledge, bed)
+    state = first_state(knowledge, bed)
     np.testing.assert_array_equal(state.thermal, knowledge.estimate.values(lamp.TERMS))
     params = tracker.Params(torque=knowledge.fitted.point.torque)
     state = tracker.track(bench.read(100.0), bed, params, state).end

@@ -1,5 +1,6 @@
 """One balancing of a bench: its steps as they come, and what they did to the platform."""
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from signal import SIGINT
@@ -100,6 +101,7 @@ class Limits:
     motion: MotionBudget = NO_LIMIT  # of a hold
     schedule: Schedule = ALWAYS  # of a hold
     every: float = MEASUREMENT  # s between the decisions of a hold
+    report: float = math.inf  # s between Steps of a hold with an estimate
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -195,7 +197,8 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     """Return the steps of balancing and, when that passes and a hold is requested, of holding."""
     aim, budget = (goal.target, goal.tolerance), limits.budget
     holding = HoldOptions(*aim, duration=limits.hold, budget=budget, motion=limits.motion,
-                          schedule=limits.schedule, every=limits.every)  # fmt: skip
+                          schedule=limits.schedule, every=limits.every,
+                          report=limits.report)  # fmt: skip
     usual = holding.balancing if limits.hold > 0 else BalanceOptions(*aim, budget=budget)
     moves = usual.max_moves if limits.max_moves is None else limits.max_moves
     balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)

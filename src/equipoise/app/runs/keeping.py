@@ -25,9 +25,15 @@ from equipoise.app.runs.balancing import (
     until_stopped,
 )
 from equipoise.app.runs.waiting import shown
-from equipoise.io.documents.held_file import HeldFile, read_held, write_held
+from equipoise.io.documents.held_file import (
+    PARAMETERS,
+    HeldFile,
+    HeldSag,
+    read_held,
+    write_held,
+)
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Series3
+from equipoise.model.arrays import Quaternion, Series3, Square, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Course
@@ -38,13 +44,14 @@ from equipoise.model.torque_terms import TERMS
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.hold import Held, HoldOptions, balance_and_hold, hold
 from equipoise.procedure.balancing.hold_resumed import Kept, kept_of, resumed
+from equipoise.procedure.balancing.sag_shift import allowance, as_stiff
 from equipoise.procedure.steps.gravity_feed_forward import expected, heavy_of
 from equipoise.procedure.steps.planned_move import by_name
 from equipoise.simulation.bench import SimulatedBench
 
 EVERY = 1.0  # s between decisions, chosen: an experiment that says hold waits no longer
 REPORTS = 200  # chosen: Steps with an estimate in one keeping, a minute between them at least
-SAVED = 60.0  # s between two files from which a keeping goes on
+SAVED = 60.0  # s between two files from which a keeping goes on, and reports on a dashboard
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -107,18 +114,21 @@ class _Notes:
     moves: int = 0
     travel: float = 0.0
     began: float | None = None
+    held_at: Quaternion | None = None  # the attitude when it was last measured
     saved: float = -math.inf
 
     def held(self, held: Held) -> None:
         """Save where the hold stands, now and then."""
         now, testbed, options = self.bench.time, self.bench.testbed, self.session.options
         self.began = now if self.began is None else self.began
+        self.held_at = held.state.q
         if self.session.listener is not None:
             heavy, shift = (
                 heavy_of(testbed, held.params.torque),
                 shift_by(testbed, held.displacement),
             )
-            self.session.listener(expected(held.state, heavy, shift, now, 0.5 * options.every))
+            state = as_stiff(held.state, testbed.up)
+            self.session.listener(expected(state, heavy, shift, now, 0.5 * options.every))
         if self.session.folder is not None and now - self.saved >= SAVED:
             self.saved = now
             left = max(self.began + options.duration - now, 0.0)
@@ -134,9 +144,16 @@ class _Notes:
         if self.began is not None and estimate is not None:
             names = estimate.standing
             sd = np.sqrt(np.diag(estimate.covariance_of(names)))
-            bench, nothing = self.bench, np.full(3, np.nan)
-            true = bench.truth().com if isinstance(bench, SimulatedBench) else nothing
-            self.rows.append((step.time, *estimate.values(names), *sd, *true))
+            self.rows.append((step.time, *estimate.values(names), *sd, *self.true_com()))
+
+    def true_com(self) -> Vector3:
+        """Return where the centre of mass really is, as the hold means it; NaN of a real bench."""
+        bench = self.bench
+        if not isinstance(bench, SimulatedBench):
+            return np.full(3, np.nan)
+        if self.held_at is None or not bench.testbed.in_group("sag"):
+            return bench.truth().com
+        return bench.com - allowance(bench.sag, self.held_at, bench.testbed.up)
 
     def course(self) -> tuple[Course, Series3 | None]:
         """Return the course so far, and the truth at its times."""
@@ -194,12 +211,24 @@ def steps_of(
 def file_of(kept: Kept, testbed: Testbed, options: HoldOptions, left: float) -> HeldFile:
     """Return the file of what outlasts a hold that would go on for ``left`` seconds."""
     torque = np.zeros(len(TERMS)) if kept.torque is None else kept.torque
+    P, sag = kept.covariance, kept.sag
+    own = None if sag is None else HeldSag(sag.tolist(), P[PARAMETERS:].tolist())
     return HeldFile(
         testbed.name, time.time(), left, options.target.tolist(), options.tolerance.tolist(),
         kept.com.tolist(), pack_symmetric(kept.inertia_P).tolist(), kept.drift.tolist(),
-        kept.thermal.tolist(), kept.covariance.tolist(), torque.tolist(),
-        by_name(testbed, kept.displacement),
+        kept.thermal.tolist(), P[:PARAMETERS, :PARAMETERS].tolist(), torque.tolist(),
+        by_name(testbed, kept.displacement), own,
     )  # fmt: skip
+
+
+def covariance_in(found: HeldFile) -> Square:
+    """Return the covariance of a file, that of a sag included."""
+    stiff = np.array(found.covariance)
+    if found.sag is None:
+        return stiff
+    own = np.array(found.sag.covariance)
+    beside = own[:, :PARAMETERS]
+    return np.block([[stiff, beside.T], [beside, own[:, PARAMETERS:]]])
 
 
 def interrupted(folder: Path, testbed: Testbed) -> Interrupted:
@@ -211,8 +240,9 @@ def interrupted(folder: Path, testbed: Testbed) -> Interrupted:
         )
     kept = Kept(
         np.array(found.com_m), unpack_symmetric(np.array(found.inertia_P_kg_m2)),
-        np.array(found.drift_m_s), np.array(found.thermal_m_K), np.array(found.covariance),
+        np.array(found.drift_m_s), np.array(found.thermal_m_K), covariance_in(found),
         np.array(found.torque), np.array([found.displacement_m[n] for n in testbed.mass_names]),
+        None if found.sag is None else np.array(found.sag.coefficients_m),
     )  # fmt: skip
     goal = Goal(np.array(found.target_m), np.array(found.tolerance_m))
     return Interrupted(kept, goal, found.left_s, max(time.time() - found.utc_s, 0.0))

@@ -32,7 +32,7 @@ COUNT, GATED, WAITED, SUSPECT = 0, 1, 2, 3  # in Watch.counts
 class Watch(NamedTuple):
     """What the test remembers; what has two dimensions lies row by row in one."""
 
-    X: Floats  # (24, 72)
+    X: Floats  # (24, 72); (29, 72) of a platform that sags
     C: Floats  # (6, 24) xx yy zz xy xz yz
     d: Floats  # (3, 24)
     age: Ints  # (12,) rows
@@ -55,10 +55,10 @@ class Room(NamedTuple):
     other: Floats  # (24,)
 
 
-def new_watch() -> Watch:
-    """Return a test that has no rows yet."""
+def new_watch(size: int = SIZE) -> Watch:
+    """Return a test that has no rows yet, of an error state of this size."""
     return Watch(
-        np.zeros(SIZE * COLUMNS), np.zeros(6 * MANY), np.zeros(3 * MANY),
+        np.zeros(size * COLUMNS), np.zeros(6 * MANY), np.zeros(3 * MANY),
         np.zeros(ONSETS, np.int64), np.zeros(ONSETS), np.zeros(ONSETS, np.int64),
         np.zeros(4, np.int64),
     )  # fmt: skip
@@ -127,7 +127,7 @@ def gather(watch: Watch, z: Triple, work: Work, room: Room) -> None:
 def respond(watch: Watch, work: Work, room: Room) -> None:
     """Write X <- X - K H X."""
     X, G, K = watch.X, room.G, work.K
-    for i in range(SIZE):
+    for i in range(work.size):
         a, b, e = K[i], K[ROW + i], K[2 * ROW + i]
         for c in range(COLUMNS):
             X[i * COLUMNS + c] -= a * G[c] + b * G[COLUMNS + c] + e * G[2 * COLUMNS + c]
@@ -167,5 +167,5 @@ def take_up(watch: Watch, t: float) -> None:
             watch.C[a * MANY + h] = 0.0
         for a in range(3):
             watch.d[a * MANY + h] = 0.0
-            for i in range(SIZE):
+            for i in range(watch.X.shape[0] // COLUMNS):
                 watch.X[i * COLUMNS + a * MANY + h] = 1.0 if i == 3 + 3 * kind + a else 0.0

@@ -27,7 +27,7 @@ from equipoise.estimation.tracker.kernel_records import (
     Written,
     new_tools,
 )
-from equipoise.estimation.tracker.linearisation_point import distance, transport
+from equipoise.estimation.tracker.linearisation_point import bent, distance, transport
 from equipoise.estimation.tracker.measurement_update import by_attitude, by_rate
 from equipoise.estimation.tracker.measurements import Rows
 from equipoise.estimation.tracker.mixture import mend, report
@@ -37,6 +37,7 @@ from equipoise.estimation.tracker.predict_correct import (
     apply,
     begin,
     carry,
+    carry_beside,
     lean,
     note,
     placed,
@@ -44,8 +45,10 @@ from equipoise.estimation.tracker.predict_correct import (
     transition,
     unit_columns,
 )
+from equipoise.estimation.tracker.sag import bend, bend_signatures, halfway_down
 from equipoise.estimation.tracker.stored_covariance import (
     DRIFT,
+    SIZE,
     WARM_ROW,
     coupled,
     drifts,
@@ -74,6 +77,11 @@ def predict(
     lapse = t[i + 1] - t[i]
     drifted = 0.5 * lapse if drifts(work.P) else 0.0
     carry(DRIFT, drifted, end, work.P)
+    if work.size > SIZE:
+        carry_beside(WARM_ROW, kelvins, work)
+        carry_beside(DRIFT, drifted, work)
+        halfway_down(end, lapse, moving)
+        bend(moving.down, 1.0, body.torque, end, work)
     begin(now, end, y)
     unit_columns(now, rate_of(now, y), y)
     step(body, inputs, i, y, moving.step)
@@ -81,6 +89,9 @@ def predict(
     transition(now, body.mass, y, moving.step.fb, phi)
     predict_covariance(body.inertia, phi, model.walks, lapse, work)
     lean(now, phi, point, y, end)
+    if work.size > SIZE:
+        bend(moving.down, -1.0, body.torque, end, work)
+        carry_beside(DRIFT, drifted, work)
     carry(DRIFT, drifted, end, work.P)
     begin(now, end, y)
     return now
@@ -164,6 +175,25 @@ def mended(
 
 
 @part
+def follow_events(watch: onsets.Watch, kelvins: float, lapse: float, tools: Tools) -> None:
+    """Take what events would have done to the estimate over a step, as ``predict`` takes it."""
+    moving, sags = tools.moving, tools.work.size > SIZE
+    if sags:
+        bend_signatures(moving.down, 1.0, watch.X)
+    onsets.follow(watch, moving.phi, kelvins, lapse, tools.room)
+    if sags:
+        bend_signatures(moving.down, -1.0, watch.X)
+
+
+@part
+def is_gone(point: Floats, end: Floats, sags: bool) -> bool:
+    """Say whether the point has to move, for r and J or for a sag."""
+    if distance(point, end) > 1.0:
+        return True
+    return sags and bent(point, end) > 1.0
+
+
+@part
 def fold(point: Floats, place: Place, P: Floats) -> None:
     """Let the point follow the estimate."""
     give(P, place.covariance)
@@ -176,9 +206,12 @@ def walk_on(
     model: Model, rows: Rows, walk: Walk, point: Floats, carried: Carried, written: Written,
     tools: Tools,
 ) -> int:  # fmt: skip
-    """Filter rows; return the node reached. The covariance is the tools' own."""
+    """Filter rows; return the node reached. The covariance is the tools' own.
+
+    A point with a sag is not folded on the way: the sag of the body has to go along.
+    """
     place, levels, watch, done = carried.place, carried.levels, carried.watch, written.done
-    body, P = placed(model.body, point), tools.work.P
+    body, P, sags = placed(model.body, point), tools.work.P, tools.work.size > SIZE
     groups = groups_of(model.columns)
     inputs = Inputs(model.maps, rows.t, rows.known, rows.owners, model.columns, groups)
     iq = int(np.searchsorted(rows.q_node, walk.first + 1))
@@ -189,7 +222,7 @@ def walk_on(
         stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
         if walk.testing:
             kelvins, lapse = warmer(rows.known, i), rows.t[i + 1] - rows.t[i]
-            onsets.follow(watch, tools.moving.phi, kelvins, lapse, tools.room)
+            follow_events(watch, kelvins, lapse, tools)
         known, before = settled(levels), iq + iw
         iq, iw = see(model, rows, walk, i + 1, iq, iw, now, known, carried, written, tools)
         if done[REASON] != END:
@@ -198,16 +231,16 @@ def walk_on(
             return i + 1
         if iq + iw == before or not walk.testing:
             continue
-        gone = distance(point, place.posterior) > 1.0
+        gone = is_gone(point, place.posterior, sags)
         linear = walk.folding or walk.again or not gone
         t = float(rows.t[i + 1])
         if mended(model, t, now, known, linear, carried, written, tools):
             onsets.forget(watch)
             return i + 1
-        if gone and walk.folding:
+        if gone and walk.folding and not sags:
             fold(point, place, P)
             body = placed(model.body, point)
-        elif gone and not walk.again and i + 1 >= walk.stop_at:
+        elif gone and not walk.again and (walk.folding or i + 1 >= walk.stop_at):
             done[REASON] = MOVED
             return i + 1
     return walk.last
@@ -220,7 +253,8 @@ def run_filter(
     """Filter rows; return the node reached. ``point`` and what is carried come and go."""
     covariance = carried.place.covariance
     warms = rows.known[:, KNOWN_WARMTH].min() != rows.known[:, KNOWN_WARMTH].max()
-    tools = new_tools(rows.w_node.shape[0] > 0 or warms or coupled(covariance))
+    biased = rows.w_node.shape[0] > 0 or warms or coupled(covariance)
+    tools = new_tools(biased, covariance.shape[0])
     written.done[REASON] = END
     take(covariance, tools.work.P)
     reached = walk_on(model, rows, walk, point, carried, written, tools)

@@ -9,7 +9,7 @@ from equipoise.dynamics.sensitivities import BLOCK, LANES, Columns, work_for
 from equipoise.dynamics.sensitivities import Work as StepWork
 from equipoise.estimation.tracker.event_signatures import COLUMNS, MANY, Room, Watch
 from equipoise.estimation.tracker.predict_correct import Work
-from equipoise.estimation.tracker.stored_covariance import ROW, SIZE, N
+from equipoise.estimation.tracker.stored_covariance import ROW, N
 from equipoise.maths.kernels.compiled import kernel
 from equipoise.model.arrays import Floats, Ints, Square
 
@@ -21,11 +21,11 @@ REASON, NOTED, EVENTS = 0, 1, 2  # in Written.done
 class Model(NamedTuple):
     """What does not change along the walk."""
 
-    body: Body  # its inertia and moment are not used
+    body: Body  # its inertia and moment are not used; its sag is that of the point, if any
     maps: Floats
     columns: Columns
     sd: Floats  # (2,) rad, rad/s: stated noise of camera and gyro
-    walks: Floats  # (24,)
+    walks: Floats  # (24,); a sag stays
     alarm: float  # l of a contact
 
 
@@ -41,10 +41,13 @@ class Walk(NamedTuple):
 
 
 class Place(NamedTuple):
-    """The estimate (q, w, com, J, bias, v, k) and its covariance, written on by the walk."""
+    """The estimate (q, w, com, J, bias, v, k) and its covariance, written on by the walk.
 
-    posterior: Floats  # (25,)
-    covariance: Square  # (24, 24)
+    Of a platform that sags the five of C follow.
+    """
+
+    posterior: Floats  # (25,), or (30,)
+    covariance: Square  # (24, 24), or (29, 29)
 
     def copy(self) -> "Place":
         """Return one that can be written on."""
@@ -73,6 +76,7 @@ class Moving(NamedTuple):
     y: Floats  # (7 + 96,) attitude, momentum, sensitivities
     step: StepWork
     phi: Floats  # (6, 15) rows of 16
+    down: Floats  # (3,) n half-way through the step, of a platform that sags
 
 
 class Tools(NamedTuple):
@@ -84,13 +88,16 @@ class Tools(NamedTuple):
 
 
 @kernel
-def new_tools(biased: bool) -> Tools:
-    """Return arrays to work in; ``biased``: the gyro's bias, a drift or warmth is in use."""
-    moving = Moving(np.empty(ROWS + BLOCK), work_for(N), np.zeros(6 * LANES))
-    work = Work(np.zeros(SIZE * ROW), np.zeros(ROW), np.zeros(3 * ROW), np.zeros((3, 3)),
+def new_tools(biased: bool, size: int) -> Tools:
+    """Return arrays to work in, for an error state of this size.
+
+    ``biased``: the gyro's bias, a drift, warmth or a sag is in use.
+    """
+    moving = Moving(np.empty(ROWS + BLOCK), work_for(N), np.zeros(6 * LANES), np.zeros(3))
+    work = Work(np.zeros(size * ROW), np.zeros(ROW), np.zeros(3 * ROW), np.zeros((3, 3)),
                 np.zeros((3, 3)), np.zeros(3 * ROW), np.zeros(3 * ROW), np.zeros(6 * ROW),
-                biased)  # fmt: skip
+                biased, size)  # fmt: skip
     room = Room(np.zeros(6 * COLUMNS), np.zeros(3 * COLUMNS), np.zeros(3 * COLUMNS),
                 np.zeros(6 * MANY), np.zeros(3 * MANY), np.zeros(MANY), np.zeros(MANY),
-                np.zeros(SIZE), np.zeros(SIZE))  # fmt: skip
+                np.zeros(size), np.zeros(size))  # fmt: skip
     return Tools(moving, work, room)

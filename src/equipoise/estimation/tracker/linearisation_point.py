@@ -9,16 +9,19 @@ when it moves, the covariance goes with it in coordinates in which the direction
     x = (r, J),  l dx = tr dJ / tr J,  c = tr J' / tr J          (docs/derivations.md)
 
 T takes x to x', and changes of (J, r) / tr J only by the factor c. tr J is linear in J, which
-makes T the same by whatever points one goes.
+makes T the same by whatever points one goes. A sag scales as r does: where it is estimated, its
+coefficients are part of x and of the point.
 """
 
 import numpy as np
 
 from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Square
 
-AT = 7  # where com stands in an estimate written as one array: q, w, com, J, bias, v
+AT = 7  # where com stands in an estimate written as one array: q, w, com, J, bias, v, k, sag
+STIFF = 9  # numbers of a point, r and J, before those of a sag
+BESIDE = 9  # numbers of an estimate between J and the sag: bias, v, k
 MOVED = 0.01  # of a moment, chosen: half of the error that linearising once stands
 MOVED_COM = 0.03  # of |r|, chosen: r enters linearly but for its product with 1/J
 POSSIBLE = 0.5  # chosen: a point's inertia shrinks to no less than this at a time, along any axis
@@ -56,6 +59,40 @@ def transport(P: Floats, point: Floats, end: Floats) -> None:
         point[k] = end[AT + k]
 
 
+@kernel
+def bent(point: Floats, end: Floats) -> float:
+    """Return how far the sag is from that of the point, as ``distance`` has it for r; 0 without."""
+    size, off = 0.0, 0.0
+    for k in range(3):
+        size += point[k] * point[k]
+    for k in range(STIFF, point.shape[0]):
+        off += (end[AT + BESIDE + k] - point[k]) ** 2
+    return (off / (MOVED_COM * MOVED_COM * size)) ** 0.5
+
+
+def moved(point: Floats, end: Floats) -> float:
+    """Return the distance of an estimate from the point, a sag included."""
+    return max(distance(point, end), bent(point, end))
+
+
+def transport_sag(P: Square, point: Floats, new: Floats) -> None:
+    """Move the sag of the point, and P with it: the rows of T that are its own.
+
+    Before ``transport``, which changes what these take from J.
+    """
+    size, rows = point[3:6].sum(), np.arange(STIFF, len(point)) + 6 + BESIDE
+    c, T = new[3:6].sum() / size, np.eye(len(P))
+    T[rows, rows] = c
+    T[rows, 9:12] = ((new - c * point) / size)[STIFF:, None]
+    P[:] = T @ P @ T.T
+    point[STIFF:] = new[STIFF:]
+
+
+def linear_in(posterior: Floats) -> Floats:
+    """Return what a point has of an estimate: r, J and a sag."""
+    return np.append(posterior[AT : AT + STIFF], posterior[AT + STIFF + BESIDE :])
+
+
 def shrunk(point: Floats, new: Floats) -> bool:
     """Say whether J' - J POSSIBLE is not positive: one of its leading minors (Sylvester)."""
     xx, yy, zz = (float(new[k] - POSSIBLE * point[k]) for k in (3, 4, 5))
@@ -78,13 +115,13 @@ def nearer(point: Floats, posterior: Floats) -> Floats:
 
 def doubt(point: Floats, covariance: Floats) -> float:
     """Return the greatest sd of an element of J, relative to its size."""
-    sizes = element_sizes(unpack_symmetric(point[3:]))
+    sizes = element_sizes(unpack_symmetric(point[3:STIFF]))
     return float(np.max(np.sqrt(np.diag(covariance)[9:15]) / sizes))
 
 
 def doubt_of_shape(point: Floats, covariance: Floats) -> float:
     """Return the same for J / tr J: what is left of the doubt with the scale taken out."""
-    inertia = point[3:]
+    inertia = point[3:STIFF]
     out_of_scale = np.eye(6) - np.outer(inertia, [1, 1, 1, 0, 0, 0]) / inertia[:3].sum()
     left = out_of_scale @ covariance[9:15, 9:15] @ out_of_scale.T
     sizes = element_sizes(unpack_symmetric(inertia))

@@ -10,7 +10,6 @@ wrong kind or onset would cost.
 
 from equipoise.estimation.tracker.contact_test import LIKELY
 from equipoise.estimation.tracker.event_signatures import COLUMNS, COUNT, MANY, ONSETS, Room, Watch
-from equipoise.estimation.tracker.stored_covariance import SIZE
 from equipoise.maths.kernels.compiled import part
 from equipoise.model.arrays import Floats
 
@@ -22,7 +21,7 @@ EVENT = 15  # onset (s), kind, l, jump, its sd, step, its sd
 @part
 def effect(watch: Watch, h: int, by: int, room: Room, out: Floats) -> None:
     """Write X v, with X of one hypothesis and v of another."""
-    for i in range(SIZE):
+    for i in range(out.shape[0]):
         out[i] = 0.0
         for a in range(3):
             out[i] += watch.X[i * COLUMNS + a * MANY + h] * room.v[a * MANY + by]
@@ -31,8 +30,8 @@ def effect(watch: Watch, h: int, by: int, room: Room, out: Floats) -> None:
 @part
 def scatter(P: Floats, x: Floats, weight: float) -> None:
     """Add weight x x^T."""
-    for i in range(SIZE):
-        for j in range(SIZE):
+    for i in range(P.shape[0]):
+        for j in range(P.shape[0]):
             P[i, j] += weight * x[i] * x[j]
 
 
@@ -42,12 +41,12 @@ def doubts(watch: Watch, h: int, room: Room, P: Floats) -> None:
     X, V, one = watch.X, room.V, room.one
     for a in range(3):
         row = (0, 3, 4) if a == 0 else ((3, 1, 5) if a == 1 else (4, 5, 2))
-        for i in range(SIZE):
+        for i in range(P.shape[0]):
             one[i] = 0.0
             for b in range(3):
                 one[i] += room.p[h] * X[i * COLUMNS + b * MANY + h] * V[row[b] * MANY + h]
-        for i in range(SIZE):
-            for j in range(SIZE):
+        for i in range(P.shape[0]):
+            for j in range(P.shape[0]):
                 P[i, j] += one[i] * X[j * COLUMNS + a * MANY + h]
 
 
@@ -58,7 +57,7 @@ def mean_effect(watch: Watch, x: Floats, room: Room) -> None:
     for h in range(MANY):
         if room.p[h] > 0.0:
             effect(watch, h, h, room, room.one)
-            for i in range(SIZE):
+            for i in range(room.one.shape[0]):
                 x[i] += room.p[h] * room.one[i]
 
 
@@ -70,10 +69,10 @@ def add_hypothesis(watch: Watch, k: int, kind: int, P: Floats, x: Floats, room: 
     effect(watch, h, h, room, one)
     if k > 0:
         effect(watch, kind * ONSETS + watch.order[k - 1], h, room, other)
-        for i in range(SIZE):
+        for i in range(P.shape[0]):
             other[i] -= one[i]
         scatter(P, other, UNIFORM * p)
-    for i in range(SIZE):
+    for i in range(P.shape[0]):
         one[i] -= x[i]
     scatter(P, one, p)
     doubts(watch, h, room, P)

@@ -28,7 +28,7 @@ from equipoise.estimation.tracker.stored_covariance import (
     fill,
     lanes_of,
 )
-from equipoise.maths.kernels.compiled import part
+from equipoise.maths.kernels.compiled import kernel, part
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints, Six, Triple
 
@@ -41,7 +41,7 @@ DRIFTING = (*range(6, 15), *range(DRIFT, WARM_ROW))  # r, J and v
 class Work(NamedTuple):
     """Arrays that a correction works in, made once; (3, 24) lie as rows of P do."""
 
-    P: Floats  # (24, 24) covariance, see ``stored_covariance``
+    P: Floats  # (24, 24) covariance, see ``stored_covariance``; (29, 29) with sag
     x: Floats  # (24,) error state
     HP: Floats  # (3, 24)
     S: Floats  # (3, 3) covariance of the innovation
@@ -49,7 +49,8 @@ class Work(NamedTuple):
     K: Floats  # (3, 24) gain, transposed
     left: Floats  # (3, 24) what Joseph's form adds, transposed
     A: Floats  # (6, 24)
-    biased: bool  # bias, drift or warmth is in use
+    biased: bool  # bias, drift, warmth or sag is in use
+    size: int  # of the error state
 
 
 @part
@@ -116,6 +117,14 @@ def predict_block(phi: Floats, first: int, P: Floats, A: Floats) -> None:
 
 
 @part
+def predict_sag(work: Work) -> None:
+    """Write the columns of a sag that Phi P has, if any, where they stand in P."""
+    for i in range(6):
+        for j in range(SIZE, work.size):
+            work.P[i * ROW + j] = work.A[i * ROW + j]
+
+
+@part
 def predict_covariance(inertia: Six, phi: Floats, noise: Floats, dt: float, work: Work) -> None:
     """Write Phi P Phi^T + Q dt in place; torque noise reaches the rate through J.
 
@@ -134,6 +143,7 @@ def predict_covariance(inertia: Six, phi: Floats, noise: Floats, dt: float, work
             for k in range(lanes):  # the last is one of the bias in A, and zero in Phi
                 total += A[i * ROW + k] * phi[j * LANES + k]
             P[i * ROW + j] = total
+    predict_sag(work)
     for j in range(SIZE):
         spread = noise[j] / inertia[j - 3] if 3 <= j < 6 else noise[j]
         P[j * ROW + j] += spread * spread * dt
@@ -144,7 +154,7 @@ def carry(first: int, by: float, end: Floats, P: Floats) -> None:
     """Write r + c by, c the states from row ``first`` on, and F P F^T with F = E + by at (r, c).
 
     Drift carries r on by a time (s), warmth by kelvins. Of P only what is on and above the diagonal
-    is read and written.
+    is read and written; ``carry_beside`` is about the columns of a sag.
     """
     if by == 0.0:
         return
@@ -161,6 +171,16 @@ def carry(first: int, by: float, end: Floats, P: Floats) -> None:
         for j in range(COM_ROW + 3, SIZE):
             low, high = min(j, c), max(j, c)
             P[r * ROW + j] += by * P[low * ROW + high]
+
+
+@kernel
+def carry_beside(first: int, by: float, work: Work) -> None:
+    """Write what ``carry`` does to the covariance of r with a sag, if any."""
+    P = work.P
+    for i in range(3):
+        r, c = COM_ROW + i, first + i
+        for j in range(SIZE, work.size):
+            P[r * ROW + j] += by * P[c * ROW + j]
 
 
 @part
@@ -227,14 +247,15 @@ def shrink(first: int, second: int, R: float, work: Work) -> None:
     be found from A as it is stored.
     """
     P, K, left = work.P, work.K, work.left
-    add_product(P, K, work.HP, -1.0, work.biased)
+    beside = work.size if work.biased else 0
+    add_product(P, K, work.HP, -1.0, beside)
     for r in range(3):
         copy_row(P, first + r, left, r * ROW)
         if second >= 0:
             add_row(P, second + r, left, r * ROW)
     for j in range(3 * ROW):
         left[j] = R * K[j] - left[j]
-    add_product(P, left, K, 1.0, work.biased)
+    add_product(P, left, K, 1.0, beside)
 
 
 @part
@@ -285,10 +306,10 @@ def innovation(now: Now, y: Floats, bias: Floats, observed: Floats) -> Triple:
 
 @part
 def note(t: float, end: Floats, P: Floats, surprise: float, out: Floats) -> None:
-    """Write the row: t, q, w, com, J, bias, v, k, sd, surprise."""
-    n = end.shape[0]
-    out[0], out[1 + n + SIZE] = t, surprise
+    """Write the row: t, q, w, com, J, bias, v, k, the sag if any, sd, surprise."""
+    n, last = end.shape[0], out.shape[0] - 1
+    out[0], out[last] = t, surprise
     for j in range(n):
         out[1 + j] = end[j]
-    for j in range(SIZE):
+    for j in range(last - 1 - n):
         out[1 + n + j] = P[j * ROW + j] ** 0.5

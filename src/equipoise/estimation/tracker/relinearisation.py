@@ -24,6 +24,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.dynamics.regressor import SAG as FIRST
 from equipoise.estimation.tracker.event_signatures import SUSPECT, Watch, new_watch
 from equipoise.estimation.tracker.filter_kernel import run_filter
 from equipoise.estimation.tracker.kernel_records import (
@@ -40,16 +41,19 @@ from equipoise.estimation.tracker.kernel_records import (
 )
 from equipoise.estimation.tracker.linearisation_point import (
     AT,
-    distance,
+    STIFF,
     doubt,
     doubt_of_shape,
+    linear_in,
+    moved,
     nearer,
     transport,
+    transport_sag,
 )
 from equipoise.estimation.tracker.measurements import Rows, followed_by, later
 from equipoise.estimation.tracker.mixture import EVENT
 from equipoise.estimation.tracker.noise_level import settled
-from equipoise.estimation.tracker.stored_covariance import DRIFT, SIZE
+from equipoise.estimation.tracker.stored_covariance import DRIFT
 from equipoise.model.arrays import Floats
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
@@ -60,9 +64,9 @@ PASSES, CLOSE = 3, 0.5  # at most; until the point moves by no more than this
 LOUDER = 2.0  # of the variance of noise, chosen: well beyond what it wanders by
 TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
-BODY = slice(AT, AT + 9)  # r and J in an estimate written as one array
+BODY = slice(AT, AT + STIFF)  # r and J in an estimate written as one array
+TORQUES = slice(FIRST, FIRST + 5)  # of a sag among the coefficients of torques
 ERRORS = slice(6, 15)  # and in the error state
-MISLED, IN_ERRORS = np.r_[BODY, AT + 12 : AT + 18], np.r_[ERRORS, DRIFT:SIZE]  # v and k, too
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,7 +75,7 @@ class Memory:
 
     anchor: Place
     rows: Rows  # since the anchor
-    point: Floats  # (9,) r and J about which it linearises
+    point: Floats  # (9,) r and J about which it linearises; (14,) with a sag
     passed: float  # s, the window that was last passed again
     level: Floats  # (2,) of the noise at that time
     levels: Floats  # (2, 2) of the noise: share of the stated variance, rows counted
@@ -82,8 +86,8 @@ class Memory:
 def first_memory(here: Place, rows: Rows) -> Memory:
     """Return the memory of a tracker that begins with these rows."""
     levels = np.array([[1.0, 0.0], [1.0, 0.0]])
-    return Memory(here.copy(), rows, here.posterior[BODY].copy(), 0.0, levels[:, 0].copy(), levels,
-                  new_watch(), True)  # fmt: skip
+    return Memory(here.copy(), rows, linear_in(here.posterior), 0.0, levels[:, 0].copy(), levels,
+                  new_watch(len(here.covariance)), True)  # fmt: skip
 
 
 def copied(memory: Memory) -> Memory:
@@ -94,8 +98,10 @@ def copied(memory: Memory) -> Memory:
 
 def anchored(memory: Memory, here: Place, node: int) -> Memory:
     """Return the memory with its anchor here, at a node; transports the covariance."""
-    target = here.posterior.copy()
-    target[BODY] = nearer(memory.point, here.posterior[BODY])
+    target, new = here.posterior.copy(), nearer(memory.point, linear_in(here.posterior))
+    target[BODY] = new[:STIFF]
+    if len(new) > STIFF:
+        transport_sag(here.covariance, memory.point, new)
     transport(here.covariance, memory.point, target)
     keeping = doubt(memory.point, here.covariance) > DOUBT or not settled(memory.levels)
     rows, level = later(memory.rows, node), memory.levels[:, 0].copy()
@@ -103,13 +109,27 @@ def anchored(memory: Memory, here: Place, node: int) -> Memory:
 
 
 def without(anchor: Place, here: Place) -> Place:
-    """Return a place that knows of r, J, v and k what the anchor did: rows since have misled it."""
+    """Return a place that knows of the body what the anchor did: rows since have misled it.
+
+    Of r, J, v and k, and of a sag.
+    """
     found = here.copy()
-    found.posterior[MISLED] = anchor.posterior[MISLED]
-    found.covariance[IN_ERRORS] = found.covariance[:, IN_ERRORS] = 0.0
-    block = np.ix_(IN_ERRORS, IN_ERRORS)
+    misled = np.r_[BODY, AT + 12 : len(found.posterior)]
+    in_errors = np.r_[ERRORS, DRIFT : len(found.covariance)]
+    found.posterior[misled] = anchor.posterior[misled]
+    found.covariance[in_errors] = found.covariance[:, in_errors] = 0.0
+    block = np.ix_(in_errors, in_errors)
     found.covariance[block] = anchor.covariance[block]
     return found
+
+
+def sagging(model: Model, point: Floats) -> Model:
+    """Return the model with the sag of a point, if it has any, among the known torques."""
+    if len(point) == STIFF:
+        return model
+    torque = list(model.body.torque)
+    torque[TORQUES] = map(float, point[STIFF:])
+    return model._replace(body=model.body._replace(torqued=True, torque=tuple(torque)))
 
 
 def passed(
@@ -119,7 +139,8 @@ def passed(
     found, silent = memory.anchor.copy(), Written(np.zeros((0, 0)), written.events, written.done)
     walk = Walk(0, node, node, False, True, testing)
     carried = Carried(found, memory.levels, memory.watch)
-    return found, run_filter(model, memory.rows, walk, point, carried, silent)
+    bent = sagging(model, point)
+    return found, run_filter(bent, memory.rows, walk, point, carried, silent)
 
 
 def pass_again(
@@ -133,7 +154,7 @@ def pass_again(
     """
     point, found = memory.point.copy(), here
     for _ in range(PASSES):
-        point = nearer(point, found.posterior[BODY])
+        point = nearer(point, linear_in(found.posterior))
         found, reached = passed(model, memory, point, node, False, written)
         if written.done[REASON] == BROKEN:
             memory = anchored(replace(memory, point=point), found, reached)
@@ -141,11 +162,11 @@ def pass_again(
         if reached < node or not np.all(np.isfinite(found.posterior)):
             point, found = memory.point, here
             break
-        if distance(point, found.posterior) < CLOSE:
+        if moved(point, found.posterior) < CLOSE:
             break
     age = float(memory.rows.t[node] - memory.rows.t[0])
     level = memory.levels[:, 0].copy()
-    suspected = bool(memory.watch.counts[SUSPECT]) and distance(point, found.posterior) < CLOSE
+    suspected = bool(memory.watch.counts[SUSPECT]) and moved(point, found.posterior) < CLOSE
     memory.watch.counts[: SUSPECT + (1 if suspected else 0)] = 0
     memory = replace(memory, point=point, passed=age, level=level)
     return refine(model, memory, found, node, written) if suspected else (memory, found, node)
@@ -177,10 +198,12 @@ def advance(
         measurement = int(np.searchsorted(rows.t, start + max(EARLIEST, GROWTH * memory.passed)))
     walk = Walk(node, edge, measurement, not keeping, False, True)
     carried = Carried(here, memory.levels, memory.watch)
-    node = run_filter(model, rows, walk, memory.point, carried, written)
+    bent = sagging(model, memory.point)
+    node = run_filter(bent, rows, walk, memory.point, carried, written)
     if written.done[REASON] == ASTRAY and keeping:
         here = without(memory.anchor, here)
-    if written.done[REASON] in (BROKEN, ASTRAY, TOUCHED):
+    followed = written.done[REASON] == MOVED and not keeping
+    if followed or written.done[REASON] in (BROKEN, ASTRAY, TOUCHED):
         return anchored(memory, here, node), here, 0
     if written.done[REASON] == MOVED:
         memory, here, node = pass_again(model, memory, here, node, written)
@@ -196,7 +219,7 @@ def at_edge(
     grown = np.log(memory.levels[:, 0] / memory.level)
     if grown.max() > np.log(LOUDER):  # noise has been taken for motion: from the anchor's point
         memory, here, node = pass_again(model, memory, memory.anchor.copy(), node, written)
-    elif grown.min() < -np.log(LOUDER) or distance(memory.point, here.posterior) > CLOSE:
+    elif grown.min() < -np.log(LOUDER) or moved(memory.point, here.posterior) > CLOSE:
         memory, here, node = pass_again(model, memory, here, node, written)
     shaped = doubt_of_shape(memory.point, here.covariance) < SHAPE and settled(memory.levels)
     if shaped or memory.rows.t[node] - memory.rows.t[0] > LONGEST:
@@ -209,7 +232,7 @@ def follow(
 ) -> tuple[Memory, Place, Written]:
     """Return memory and place after fresh rows, and what was written on the way."""
     n = len(fresh.q) + len(fresh.w)
-    wide = 1 + len(here.posterior) + SIZE + 1
+    wide = 1 + len(here.posterior) + len(here.covariance) + 1
     written = Written(np.zeros((n, wide)), np.zeros((MOST_EVENTS, EVENT)), np.zeros(3, np.int64))
     if memory is None:
         memory = first_memory(here, fresh)

@@ -15,28 +15,33 @@ from equipoise.model.arrays import Floats, Square
 
 SIZE, N = 24, 15  # dth, dw, dr, dJ, db, dv, dk; the propagator moves the first 15, in one block
 COM_ROW, DRIFT, WARM_ROW = 6, 18, 21  # where r, its drift v, and k, what a kelvin does, begin
+SAG_ROW, WITH_SAG = SIZE, SIZE + 5  # where the five of C begin, of a platform that sags, and end
 ROW = 2 * LANES  # numbers from one row to the next
 
 
 @part
 def take(covariance: Square, P: Floats) -> None:
     """Write P from a matrix."""
-    for i in range(SIZE):
-        for j in range(SIZE):
+    size = covariance.shape[0]
+    for i in range(size):
+        for j in range(size):
             P[i * ROW + j] = covariance[i, j]
 
 
 @part
 def give(P: Floats, covariance: Square) -> None:
     """Write the matrix, symmetric to the last digit."""
-    for i in range(SIZE):
-        for j in range(i, SIZE):
+    size = covariance.shape[0]
+    for i in range(size):
+        for j in range(i, size):
             covariance[i, j] = covariance[j, i] = P[i * ROW + j]
 
 
 @part
 def coupled(covariance: Square) -> bool:
-    """Say whether bias or warmth has to do with the rest, or there may be a drift."""
+    """Say whether bias or warmth has to do with the rest, or there may be a drift or a sag."""
+    if covariance.shape[0] > SIZE:
+        return True
     for i in range(DRIFT, WARM_ROW):
         if covariance[i, i] != 0.0:
             return True
@@ -61,7 +66,7 @@ def lanes_of(P: Floats) -> int:
 
 @part
 def fill(P: Floats) -> None:
-    """Write what is below the diagonal."""
+    """Write what is below the diagonal, and left of the columns of a sag."""
     for i in range(1, SIZE):
         for j in range(i):
             P[i * ROW + j] = P[j * ROW + i]
@@ -81,7 +86,7 @@ def add_row(P: Floats, row: int, out: Floats, at: int) -> None:
     """Add a row of P, of which only the part above the diagonal need be there."""
     for j in range(row):
         out[at + j] += P[j * ROW + row]
-    for j in range(row, SIZE):
+    for j in range(row, ROW):
         out[at + j] += P[row * ROW + j]
 
 
@@ -96,8 +101,13 @@ def add_block(P: Floats, A: Floats, B: Floats, sign: float, rows: int, first: in
 
 
 @part
-def add_product(P: Floats, A: Floats, B: Floats, sign: float, biased: bool) -> None:
-    """Add sign A^T B, which is symmetric; A and B are (3, 24), in rows as those of P."""
+def add_product(P: Floats, A: Floats, B: Floats, sign: float, size: int) -> None:
+    """Add sign A^T B, which is symmetric; A and B are (3, 24), in rows as those of P.
+
+    To so many rows of the second block of columns; to none of it where ``size`` is 0.
+    """
     add_block(P, A, B, sign, LANES, 0)
-    if biased:
+    if size == SIZE:  # as a number that the compiler knows
         add_block(P, A, B, sign, SIZE, LANES)
+    elif size > SIZE:
+        add_block(P, A, B, sign, WITH_SAG, LANES)

@@ -1,6 +1,7 @@
 """Tracker: multiplicative extended Kalman filter of attitude, rate, mass properties and gyro bias.
 
     error state  x = [ dth, dw, dr, dJ, db, dv, dk ]  (body axes; r, J with the masses at home)
+                 and dc where the platform sags: the five coefficients of C, r + C n  (``sag``)
     prediction   the propagator; Phi from its sensitivities to first attitude, rate, moment, J;
                  r' = v: the centre of mass drifts, where the state's covariance says that it may;
                  r <- r + k dT
@@ -77,7 +78,8 @@ Moves = Literal["fed", "ignored"]
 Kind = Literal["impulse", "step", "either", "lost"]
 KINDS: tuple[Kind, ...] = ("impulse", "step", "either", "lost")
 UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump unannounced
-WHERE = np.cumsum([4, 3, 3, 6, 3, 3, 3])  # where the parts of an estimate written as one array end
+WHERE = np.cumsum([4, 3, 3, 6, 3, 3, 3])  # where the parts of an estimate written as one array end;
+# of a platform that sags its coefficients follow
 QUIET = 7200.0  # s, chosen: how often chance alone is called a contact; it costs what was known
 
 
@@ -113,11 +115,12 @@ class State:
     com: Vector3  # m, masses at home
     inertia_P: Matrix3  # kg m^2, masses at home
     bias: Vector3  # rad/s
-    covariance: Square  # (24, 24) of dth, dw, dr, dJ, db, dv, dk
+    covariance: Square  # (24, 24) of dth, dw, dr, dJ, db, dv, dk; (29, 29) with dc
     memory: Memory | None = None  # of the rows before; None: this is where tracking begins
     drift: Vector3 = field(default_factory=nothing)  # m/s, of com
     thermal: Vector3 = field(default_factory=nothing)  # m/K
     inputs: Recording | None = None  # masses, momentum, lamp and the like, as later rows need them
+    sag: Floats | None = None  # (5,) m, coefficients of C; None: all that is known of it is certain
 
     @property
     def noise_levels(self) -> Floats:
@@ -157,7 +160,8 @@ class Track:
     bias: Series3
     drift: Series3  # m/s, of com
     thermal: Series3  # m/K
-    sd: Series  # (n, 24) of dth, dw, dr, dJ, db, dv, dk
+    sag: Series  # (n, 5) m; (n, 0) where it is not estimated
+    sd: Series  # (n, 24) of dth, dw, dr, dJ, db, dv, dk; (n, 29) with dc
     surprise: Series1  # squared innovation over its covariance, 3 degrees of freedom
     contacts: tuple[Contact, ...]
     end: State
@@ -239,8 +243,9 @@ def steady(torque: Floats | None) -> Floats | None:
 
 def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
     """Return the estimate after every row later than the state; to go on, call from its end."""
+    sag = np.zeros(0) if state.sag is None else state.sag
     posterior = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
-                             state.bias, state.drift, state.thermal])  # fmt: skip
+                             state.bias, state.drift, state.thermal, sag])  # fmt: skip
     speed, fed = float(np.linalg.norm(state.rate)), params.moves == "fed"
     inputs = inputs_of(state.inputs, recording)
     until = state.t if not recording.rows else recording.span[1]
@@ -249,20 +254,20 @@ def track(recording: Recording, testbed: Testbed, params: Params, state: State) 
     fresh = rows_of(whole, testbed, fed, state.t, speed)
     model = model_of(recording, testbed, params, state)
     memory, here, written = follow(model, state.memory, Place(posterior, state.covariance), fresh)
-    q, w, com, J, b, v, k = np.split(here.posterior, WHERE[:-1])
+    q, w, com, J, b, v, k, sag = np.split(here.posterior, WHERE)
     now = float(fresh.t[-1])
     end = State(now, q, w, com, unpack_symmetric(J), b, here.covariance, memory, v, k,
-                inputs_kept(inputs, now))  # fmt: skip
+                inputs_kept(inputs, now), None if state.sag is None else sag)  # fmt: skip
     return track_of(written, end)
 
 
 def track_of(written: Written, end: State) -> Track:
     """Return what the walk has written."""
-    out = written.out
-    at = np.split(out, [1, *(1 + WHERE), out.shape[1] - 1], axis=1)
-    t, q, w, com, J, b, v, k, sd, surprise = at
+    out, kept = written.out, 1 + len(end.covariance)
+    at = np.split(out, [1, *(1 + WHERE), 1 + kept, out.shape[1] - 1], axis=1)
+    t, q, w, com, J, b, v, k, sag, sd, surprise = at
     found = tuple(contact_of(event, end) for event in written.events[: written.done[EVENTS]])
-    return Track(t[:, 0], q, w, com, J, b, v, k, sd, surprise[:, 0], found, end)
+    return Track(t[:, 0], q, w, com, J, b, v, k, sag, sd, surprise[:, 0], found, end)
 
 
 def contact_of(event: Floats, end: State) -> Contact:

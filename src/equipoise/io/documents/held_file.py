@@ -1,7 +1,8 @@
 """``held.json``: where a hold stands, so that it goes on after an interruption.
 
 Numbers in SI. The covariance is that of com, J (xx yy zz xy xz yz), the drift of com and what a
-kelvin moves it by; attitude and rate are not kept: the platform moves on meanwhile.
+kelvin moves it by; that of a sag, where it is estimated, is with all of these and with itself.
+Attitude and rate are not kept: the platform moves on meanwhile.
 """
 
 from dataclasses import dataclass
@@ -13,10 +14,20 @@ from pydantic import ConfigDict, Field, TypeAdapter, with_config
 from equipoise.io.documents.json_document import read_document
 from equipoise.io.files.atomic_file import write_whole
 
-FILE, PARAMETERS, TERMS = "held.json", 15, 19
+FILE, PARAMETERS, TERMS, SAG = "held.json", 15, 19, 5
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Triple = Annotated[list[Finite], Field(min_length=3, max_length=3)]
 Row = Annotated[list[Finite], Field(min_length=PARAMETERS, max_length=PARAMETERS)]
+SagRow = Annotated[list[Finite], Field(min_length=PARAMETERS + SAG, max_length=PARAMETERS + SAG)]
+
+
+@with_config(ConfigDict(extra="forbid"))
+@dataclass(frozen=True, slots=True)
+class HeldSag:
+    """Elastic sag: coefficients xx yy xy xz yz, their covariance with all else and themselves."""
+
+    coefficients_m: Annotated[list[Finite], Field(min_length=SAG, max_length=SAG)]
+    covariance: Annotated[list[SagRow], Field(min_length=SAG, max_length=SAG)]
 
 
 @with_config(ConfigDict(extra="forbid"))
@@ -36,6 +47,7 @@ class HeldFile:
     covariance: Annotated[list[Row], Field(min_length=PARAMETERS, max_length=PARAMETERS)]
     torque: Annotated[list[Finite], Field(min_length=TERMS, max_length=TERMS)]
     displacement_m: dict[str, Finite]
+    sag: HeldSag | None = None
     schema: Literal["equipoise/held/1"] = "equipoise/held/1"
 
 

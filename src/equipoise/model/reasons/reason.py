@@ -14,7 +14,7 @@ from enum import StrEnum
 from equipoise.model.units import DEG, MINUTE, MM, MN_M, MS, PERCENT, UM, UN_M
 
 UNITS = {"": 1.0, "deg": DEG, "um": UM, "mm": MM, "ms": MS, "uN m": UN_M, "mN m s": MN_M,
-         "%": PERCENT, "min": MINUTE, "kg m2": 1.0}  # fmt: skip
+         "%": PERCENT, "min": MINUTE, "kg m2": 1.0, "um/min": UM / MINUTE}  # fmt: skip
 Number = int | float  # a count, or a quantity
 LISTS = {"names": ", ", "both": " and ", "choices": "; "}
 PLAIN = "plain"  # three digits, or whole where there are more before the point

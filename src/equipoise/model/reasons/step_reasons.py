@@ -42,6 +42,22 @@ class StepReason(Code):
         "The centre of mass is at ({com_x:um .2f} +/- {sd_x:um .2f}, {com_y:um .2f} +/- "
         "{sd_y:um .2f}, {com_z:um .2f} +/- {sd_z:um .2f}) um.",
     )
+    COM_DRIFTS = (
+        "com_drifts",
+        "It drifts by ({of_x:um/min .2f} +/- {sd_x:um/min .2f}, {of_y:um/min .2f} +/- "
+        "{sd_y:um/min .2f}, {of_z:um/min .2f} +/- {sd_z:um/min .2f}) um/min.",
+    )
+    COM_WARMS = (
+        "com_warms",
+        "A kelvin moves it by ({of_x:um .2f} +/- {sd_x:um .2f}, {of_y:um .2f} +/- "
+        "{sd_y:um .2f}, {of_z:um .2f} +/- {sd_z:um .2f}) um.",
+    )
+    COM_SAGS = (
+        "com_sags",
+        "Elastic sag: xx {of_xx:um .1f} +/- {sd_xx:um .1f}, yy {of_yy:um .1f} +/- {sd_yy:um .1f}, "
+        "xy {of_xy:um .1f} +/- {sd_xy:um .1f}, xz {of_xz:um .1f} +/- {sd_xz:um .1f}, "
+        "yz {of_yz:um .1f} +/- {sd_yz:um .1f} um.",
+    )
     COM_BY_HAND = "com_by_hand", f"Centre of mass at {PAIRS}."
     COM_ASTRAY = (
         "com_astray",

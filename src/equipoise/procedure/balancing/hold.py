@@ -5,6 +5,10 @@ the masses follow whenever one of their steps brings the centre of mass closer t
 it drifts to until the next measurement. That it drifts need not be declared: the tracker's state
 has the rate, which is uncertain at first by as much as a platform warms up.
 
+Of a platform whose testbed declares sag the tracker's state has that, too. What is meant by its
+centre of mass is that of the stiff platform which acts alike at its attitude (``sag_shift``): so
+the masses follow the tilt, and how well the sag is known counts where it acts.
+
 It is judged at every measurement by the tracker's posterior, and by what that predicts up to the
 next one: held is what is within tolerance for sure each time (``model.criterion.jointly``). A hold
 ends where the masses are at the end of their rails.
@@ -15,28 +19,22 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import shift_by
-from equipoise.dynamics.sag_trim import sag_coefficients
-from equipoise.estimation.methods.tracker import estimate_at_end
 from equipoise.estimation.tracker import tracker
-from equipoise.estimation.tracker.known_inputs import inputs_kept, inputs_of
-from equipoise.estimation.tracker.predict_correct import DRIFTING
-from equipoise.estimation.tracker.warmth import warmth_of
-from equipoise.model.arrays import Floats, Matrix3, Vector3
+from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.bench_requests import in_steps
-from equipoise.model.estimate import INERTIA
 from equipoise.model.permission import Permission
 from equipoise.model.reasons.reason import axes_of, one_reason
-from equipoise.model.reasons.step_reasons import MoveReason, StepReason
+from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import TERMS
+from equipoise.model.torque_terms import GROUPS, TERMS
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
+from equipoise.procedure.balancing.hold_estimate import report_step
 from equipoise.procedure.balancing.hold_moves import nearest_offset, next_goal, significant_com
 from equipoise.procedure.balancing.hold_posterior import (
     COM_WALK,
@@ -46,6 +44,7 @@ from equipoise.procedure.balancing.hold_posterior import (
     shifted,
     standing,
 )
+from equipoise.procedure.balancing.hold_start import first_state
 from equipoise.procedure.balancing.hold_verdict import (
     Measured,
     course_from,
@@ -59,20 +58,19 @@ from equipoise.procedure.balancing.motion_budget import (
     slowed,
     speed_for,
 )
-from equipoise.procedure.balancing.sag_shift import lever
+from equipoise.procedure.balancing.sag_shift import as_stiff
 from equipoise.procedure.balancing.schedule import ALWAYS, Schedule
-from equipoise.procedure.steps.joint_fit import DRIFT, Knowledge
+from equipoise.procedure.steps.joint_fit import Knowledge, as_it_sags
 from equipoise.procedure.steps.planned_move import by_name, planned_move
 from equipoise.procedure.steps.sampler import last_row
 from equipoise.procedure.steps.tilt_guard import tilted
-from equipoise.procedure.steps.tilt_prediction import state_now
 from equipoise.procedure.steps.verify import Aim, at
 
 MEASUREMENT = 5.0  # s between decisions
 SOON = 0.4  # s, chosen: before the first, as balancing leaves it anywhere within tolerance
 CLOSENESS = 0.4  # of the tolerance, chosen: for what is uncertain after balancing; it stays
 FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: allowed to the balancing before a hold
-WARMING = 1e-8  # m/s, chosen: one sd of what a drift may be other than before the hold
+IN_STATE = np.isin(TERMS, GROUPS["sag"])
 DRIFT_WALK = 5e-10  # m/s/sqrt(s), chosen: by 1.3 um/min within half an hour
 
 
@@ -85,7 +83,6 @@ class HoldOptions(Aim):
     every: float = field(default=MEASUREMENT, kw_only=True)  # s between decisions
     motion: MotionBudget = field(default=NO_LIMIT, kw_only=True)
     schedule: Schedule = field(default=ALWAYS, kw_only=True)
-    sag: Matrix3 | None = field(default=None, kw_only=True)  # m, C; None: masses follow no tilt
     report: float = field(default=np.inf, kw_only=True)  # s between Steps with an estimate
 
     @property
@@ -124,43 +121,20 @@ def balance_and_hold(
 ) -> Iterator[Step]:
     """Yield the Steps of balancing and then of holding.
 
-    Not of holding when balancing ended in a stop for tilt or with an estimate that cannot be used;
-    a verdict missed by a little holding can mend.
+    Not of holding when balancing ended in a stop for tilt or with an estimate that cannot be used,
+    its sag counted; a verdict missed by a little holding can mend.
     """
     began = bench.time
     knowledge = yield from balance(bench, balancing)
     tilted_out = tilted(knowledge.recording, bench.testbed, began)
-    if knowledge.estimate.outcome.usable and not tilted_out:
-        start = begun(knowledge, bench.testbed, holding.sag)
-        yield from hold(bench, start, holding, on_held)
+    known = as_it_sags(knowledge, bench.testbed)
+    if known.estimate.outcome.usable and not tilted_out:
+        yield from hold(bench, begun(known, bench.testbed), holding, on_held)
 
 
-def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
-    """Return the tracker's prior: the estimate at the end of the record of balancing."""
-    q, rate = state_now(knowledge, testbed)
-    shift = shift_by(testbed, knowledge.displacement)
-    t = float(knowledge.fitted.problem.line.t[-1])
-    inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
-    estimate, known = knowledge.estimate, (*knowledge.standing, *INERTIA)
-    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, estimate.covariance_of(known),
-                                  warmth_of(estimate, known))  # fmt: skip
-    state = tracker.first_state(t, q, testbed, posterior)
-    drift, covariance = np.zeros(3), state.covariance.copy()
-    if estimate.has(DRIFT[0]):
-        drift, every = estimate.values(DRIFT), np.ix_(DRIFTING, DRIFTING)
-        covariance[every] = estimate.covariance_of((*known, *DRIFT))
-    for k in DRIFTING[-3:]:
-        covariance[k, k] += WARMING**2
-    inputs = inputs_kept(inputs_of(None, knowledge.recording), t)
-    return replace(state, rate=rate, drift=drift, covariance=covariance, inputs=inputs)
-
-
-def begun(knowledge: Knowledge, testbed: Testbed, sag: Matrix3 | None = None) -> Held:
-    """Return where a hold begins: at the estimate of balancing."""
-    state, params = first_posterior(knowledge, testbed), params_for(knowledge.fitted.point.torque)
-    if sag is not None:
-        state = replace(state, com=lever(state.com, sag, testbed))
-        params = replace(params, torque=with_sag(params.torque, sag))
+def begun(knowledge: Knowledge, testbed: Testbed) -> Held:
+    """Return where a hold begins: at what is known, of a sag if that is among it."""
+    state, params = first_state(knowledge, testbed), params_for(knowledge.fitted.point.torque)
     return Held(state, params, knowledge.displacement, knowledge.displacement)
 
 
@@ -173,23 +147,23 @@ def hold(
     """
     testbed, held, began = slowed(bench.testbed, options.motion), start, bench.time
     end, due = began + options.duration, began + options.report
-    course, wait = course_from(posterior_of(held, testbed, options), options), SOON
+    course, wait = course_from(posterior_of(acting_of(held, testbed), testbed), options), SOON
     while bench.time < end - 1e-9 and held.granted is not Permission.DONE:
         fresh, wait = bench.read(min(wait, end - bench.time)), options.every
         held, track = measured(held, fresh, testbed)
         on_held(held)
-        now, later = outlook(held, testbed, options, lapse := min(options.every, end - bench.time))
-        why = reason_to_stop(fresh, *arrival(held, testbed, options, lapse), testbed, options)
+        acting, lapse = acting_of(held, testbed), min(options.every, end - bench.time)
+        now, later = outlook(acting, testbed, lapse)
+        why = reason_to_stop(fresh, *arrival(acting, testbed, options, lapse), testbed, options)
         if why is not None:
             bench.stop()
             yield stop_step(bench, now, why, bench.time - began)
             return
         if bench.time >= due - 1e-9:
-            due, shift = due + options.report, shift_by(testbed, held.displacement)
-            found = one_reason(StepReason.COM_AT, **at(now.com, now.sd))
-            estimate = estimate_at_end(track, testbed, shift)
-            yield Step("estimate", bench.time, found, estimate=estimate)
-        held, steps, moved = acted(bench, testbed, held, options, lapse)
+            due += options.report
+            yield report_step(bench.time, track, acting.state, acting.displacement, testbed)
+        acting, steps, moved = acted(bench, testbed, acting, options, lapse)
+        held = replace(acting, state=held.state)
         for claim in (now, moved or later):
             course = followed(course, claim, options)
         yield from (replace(step, recording=fresh) for step in steps)
@@ -204,16 +178,19 @@ def measured(held: Held, fresh: Recording, testbed: Testbed) -> tuple[Held, trac
     return replace(held, state=track.end, displacement=displacement), track
 
 
-def posterior_of(held: Held, testbed: Testbed, options: HoldOptions) -> Measured:
+def acting_of(held: Held, testbed: Testbed) -> Held:
+    """Return where a hold stands with the state of the stiff platform that acts alike now."""
+    return replace(held, state=as_stiff(held.state, testbed.up))
+
+
+def posterior_of(held: Held, testbed: Testbed) -> Measured:
     """Return the posterior of the centre of mass with the masses where they are."""
-    return standing(held.state, testbed, held.displacement, options.sag)
+    return standing(held.state, testbed, held.displacement)
 
 
-def outlook(
-    held: Held, testbed: Testbed, options: HoldOptions, lapse: float
-) -> tuple[Measured, Measured]:
+def outlook(held: Held, testbed: Testbed, lapse: float) -> tuple[Measured, Measured]:
     """Return the posterior now, and a while (s) later, with masses on the way they are on."""
-    now = posterior_of(held, testbed, options)
+    now = posterior_of(held, testbed)
     there = reached(testbed, held.displacement, held.aimed, lapse)
     return now, shifted(ahead(now, held.state, lapse), testbed, there - held.displacement)
 
@@ -222,7 +199,7 @@ def arrival(
     held: Held, testbed: Testbed, options: HoldOptions, lapse: float
 ) -> tuple[Vector3, Floats]:
     """Return the significant centre of mass (m) once masses are where they were sent, and that."""
-    later = ahead(posterior_of(held, testbed, options), held.state, lapse)
+    later = ahead(posterior_of(held, testbed), held.state, lapse)
     there = shifted(later, testbed, held.aimed - held.displacement)
     return significant_com(there, options), held.aimed
 
@@ -243,7 +220,7 @@ def acted(
     goal = next_goal(held.state, *arrival(held, testbed, options, lapse), testbed, options)
     if goal is None:
         return held, steps, None
-    now = posterior_of(held, testbed, options)
+    now = posterior_of(held, testbed)
     parting = before_moving(now, testbed, held.displacement, goal)
     move = planned_move(testbed, held.displacement, goal, parting, MoveReason.DRIFT)
     bench.move(move.targets, speed_for(bench.testbed, goal - held.displacement, options.motion))
@@ -266,16 +243,9 @@ def halted(bench: Bench, held: Held, budget: MotionBudget) -> Held:
 
 
 def params_for(torque: Floats | None) -> tracker.Params:
-    """Return the tracker's options with known torque coefficients: its state has the drift."""
-    return tracker.Params(torque=torque, com_walk=COM_WALK, drift_walk=DRIFT_WALK)
-
-
-def with_sag(torque: Floats | None, sag: Matrix3) -> Floats:
-    """Return torque coefficients whose sag is C (m)."""
-    found = np.zeros(len(TERMS)) if torque is None else torque.copy()
-    for name, value in sag_coefficients(sag).items():
-        found[TERMS.index(name)] = value
-    return found
+    """Return the tracker's options with known torque coefficients: its state has drift and sag."""
+    stiff = None if torque is None else np.where(IN_STATE, 0.0, torque)
+    return tracker.Params(torque=stiff, com_walk=COM_WALK, drift_walk=DRIFT_WALK)
 
 
 def reason_to_stop(

@@ -9,22 +9,15 @@ from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.move import Move
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balancing.hold_verdict import Measured
-from equipoise.procedure.balancing.sag_shift import allowance
 from equipoise.procedure.steps.planned_move import stops_covariance
 
 COM_WALK = 5e-8  # m/sqrt(s), chosen: beside the drift, as of a tracker that knows of none
 
 
-def standing(
-    state: tracker.State, testbed: Testbed, displacement: Floats, sag: Matrix3 | None = None
-) -> Measured:
-    """Return the posterior of the centre of mass with the masses as they stand.
-
-    Of a platform that sags, and whose masses follow its tilt, that of a stiff one which acts alike.
-    """
+def standing(state: tracker.State, testbed: Testbed, displacement: Floats) -> Measured:
+    """Return the posterior of the centre of mass with the masses as they stand."""
     com = state.com + shift_by(testbed, displacement)
-    acting = com if sag is None else com - allowance(sag, state.q, testbed)
-    return Measured(acting, state.covariance[COM, COM])
+    return Measured(com, state.covariance[COM, COM])
 
 
 def before_moving(

@@ -6,8 +6,8 @@ measured:
     r <- r + v T,    P_rr <- P_rr + T (P_rv + P_vr) + T^2 P_vv + (q_r^2 T + q_v^2 T^3 / 3) E,
     P_rv <- P_rv + T P_vv,    P_vv <- P_vv + q_v^2 T E
 
-and it may be warmer or cooler by some kelvins. Attitude and rate are taken from fresh rows. Masses
-must stand where they stood.
+and it may be warmer or cooler by some kelvins. It sags as it did. Attitude and rate are taken from
+fresh rows. Masses must stand where they stood.
 
 Cannot see what else was done to the platform meanwhile: a hand that touched it, a part added.
 """
@@ -18,9 +18,11 @@ import numpy as np
 
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.known_inputs import inputs_of
+from equipoise.estimation.tracker.known_sag import with_sag
 from equipoise.estimation.tracker.predict_correct import COM, DRIFTING, RATE_OF_COM, WARM
+from equipoise.estimation.tracker.stored_covariance import SAG_ROW
 from equipoise.estimation.tracker.warmth import Warmth
-from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
+from equipoise.model.arrays import Floats, Ints, Matrix3, Square, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -30,7 +32,7 @@ from equipoise.procedure.steps.sampler import last_row
 
 FIRST = 1.0  # s, chosen: for an attitude, of every camera
 WARMER = 2.0  # K, chosen: one sd of what a laboratory changes meanwhile
-ROWS = np.array([*DRIFTING, *range(WARM.start, WARM.stop)])  # com, J, drift, warmth
+ROWS = (*DRIFTING, *range(WARM.start, WARM.stop))  # com, J, drift, warmth
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,16 +43,24 @@ class Kept:
     inertia_P: Matrix3  # kg m^2
     drift: Vector3  # m/s
     thermal: Vector3  # m/K
-    covariance: Square  # (15, 15) of com, J (xx yy zz xy xz yz), drift and thermal
+    covariance: Square  # (15, 15) of com, J (xx yy zz xy xz yz), drift, thermal; (20, 20) with sag
     torque: Floats | None  # (19,) coefficients
     displacement: Floats  # m, where masses stood
+    sag: Floats | None = None  # (5,) m, coefficients of C
 
 
 def kept_of(held: Held) -> Kept:
     """Return what outlasts a hold."""
-    state, every = held.state, np.ix_(ROWS, ROWS)
-    return Kept(state.com, state.inertia_P, state.drift, state.thermal, state.covariance[every],
-                held.params.torque, held.displacement)  # fmt: skip
+    state = held.state
+    return Kept(state.com, state.inertia_P, state.drift, state.thermal,
+                state.covariance[every_of(state)], held.params.torque, held.displacement,
+                state.sag)  # fmt: skip
+
+
+def every_of(state: tracker.State) -> tuple[Ints, ...]:
+    """Return where in a covariance that is which outlasts a hold."""
+    rows = np.array([*ROWS, *range(SAG_ROW, len(state.covariance))])
+    return np.ix_(rows, rows)
 
 
 def resumed(bench: Bench, kept: Kept, gap: float) -> Held:
@@ -66,8 +76,10 @@ def resumed(bench: Bench, kept: Kept, gap: float) -> Held:
                              Warmth(kept.thermal, np.zeros((3, 12))))  # fmt: skip
     t = float(fresh.attitude.t[-1])
     state = tracker.first_state(t, fresh.attitude.values[-1], bench.testbed, body)
+    if kept.sag is not None:
+        state = with_sag(state, kept.sag, np.zeros((len(kept.sag), len(kept.sag))))
     covariance = state.covariance.copy()
-    covariance[np.ix_(ROWS, ROWS)] = kept.covariance
+    covariance[every_of(state)] = kept.covariance
     state = replace(state, drift=kept.drift, covariance=covariance, inputs=inputs_of(None, fresh))
     displacement = last_row(fresh.masses, kept.displacement)
     check_standing(displacement, kept, bench.testbed)

@@ -10,7 +10,7 @@ from equipoise.dynamics.lamp_warmth import warms
 from equipoise.estimation.model_selection.survey_reasons import reasons_of_added
 from equipoise.estimation.model_selection.term_support import is_supported
 from equipoise.estimation.output_error import trajectory
-from equipoise.estimation.output_error.fit_estimate import conclude, leaves_more
+from equipoise.estimation.output_error.fit_estimate import conclude, leaves_more, spread_of
 from equipoise.estimation.output_error.segment_jumps import UNCUT
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import with_errors_of
@@ -84,6 +84,25 @@ def as_if_stiff(testbed: Testbed) -> Testbed:
     return testbed.without("sag")
 
 
+def as_it_sags(knowledge: Knowledge, testbed: Testbed) -> Knowledge:
+    """Return the knowledge with elastic sag among what is estimated, where the testbed declares it.
+
+    As large as benches have it: what the record's tilts do not show of it stays as uncertain, and
+    nothing is hidden for that. The search begins anew, as damping and drift stood for the sag where
+    it ended before.
+    """
+    sag, recording = testbed.in_group("sag"), knowledge.recording
+    if not sag:
+        return knowledge
+    considered = (*considered_in(recording, testbed), *sag)
+    setup = FitSetup(recording, as_if_stiff(testbed), considered, UNLIMITED)
+    known = explained(setup, None)
+    parameters, covariance = spread_of(known.fitted)
+    return replace(
+        known, estimate=replace(known.estimate, parameters=parameters, covariance=covariance)
+    )
+
+
 def learn(
     before: Knowledge | None,
     fresh: Recording,
@@ -103,15 +122,24 @@ def learn(
     testbed = as_if_stiff(testbed)
     fresh = replace(fresh, masses=without_flicker(fresh, testbed))
     recording = fresh if before is None else join(before.recording, fresh)
+    considered = considered_in(recording, testbed)
+    return explained(FitSetup(recording, testbed, considered, allowed), before)
+
+
+def considered_in(recording: Recording, testbed: Testbed) -> tuple[str, ...]:
+    """Return the terms to consider, without warmth where it stayed as warm."""
     warm = warms(recording, testbed)
-    considered = tuple(term for term in CONSIDERED if warm or term not in THERMAL)
-    setup = FitSetup(recording, testbed, considered, allowed)
+    return tuple(term for term in CONSIDERED if warm or term not in THERMAL)
+
+
+def explained(setup: FitSetup, before: Knowledge | None) -> Knowledge:
+    """Return the knowledge from a record, with the torques that it needs; see ``learn``."""
     knowledge = fitted_in(setup, before, () if before is None else before.found)
     promises, left = bool(supported(knowledge, setup)), knowledge.estimate.residual
     assert left is not None
     if not (promises or leaves_more(left)):
         return knowledge
-    every = replace(setup, considered=among((*considered, *ANOTHER)))
+    every = replace(setup, considered=among((*setup.considered, *ANOTHER)))
     beside = fitted_in(every, knowledge, knowledge.found)
     shown = supported(beside, every)
     if shown:
@@ -127,9 +155,12 @@ def learn_alone(fresh: Recording, testbed: Testbed, allowed: Budget = UNLIMITED)
 
 
 def supported(knowledge: Knowledge, setup: FitSetup) -> tuple[str, ...]:
-    """Return the considered terms, neither declared nor found yet, that the record supports."""
+    """Return the considered terms, neither declared nor found yet, that the record supports.
+
+    Sag is none of them: it keeps its prior, as tilts of a balancing never show all of it.
+    """
     unknown = {*setup.considered} - {*setup.testbed.disturbances, *knowledge.found}
-    groups = [group for group in GROUPS.values() if set(group) <= unknown]
+    groups = [group for name, group in GROUPS.items() if set(group) <= unknown and name != "sag"]
     found = knowledge.estimate
     shown = [group for group in groups if is_supported(found, group, typical_sizes(group))]
     return tuple(term for group in shown for term in group)

@@ -15,7 +15,7 @@ from equipoise.app.dashboard.runner.background_jobs import COMMAND
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.runner import Runner
 from equipoise.app.runs.balancing import Goal, Limits
-from equipoise.app.runs.keeping import EVERY
+from equipoise.app.runs.keeping import EVERY, SAVED
 from equipoise.model.errors import EquipoiseError, InputError
 from equipoise.model.permission import Permission
 from equipoise.model.units import MM
@@ -148,7 +148,7 @@ class Desk:
         goal = Goal(np.array(request.target), np.array(request.tolerance))
         limits = Limits(
             None, request.max_time, request.keep, request.law, motion=USUAL, every=EVERY,
-            schedule=Schedule(lambda: self._runner.permission),
+            schedule=Schedule(lambda: self._runner.permission), report=SAVED,
         )  # fmt: skip
         self._runner.balance(goal, limits)
 

@@ -8,17 +8,20 @@ from equipoise.app.report.build import steps_section
 from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
 from equipoise.app.runs.keeping import Keeping
 from equipoise.app.text.blocks import Blocks, Row, Section, Table, number, paragraphs, table
+from equipoise.app.text.estimate_text import parameter_table
 from equipoise.app.text.json_document import KEEP
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import fixed, with_sd
 from equipoise.app.text.run_blocks import verdict_blocks
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import COM
+from equipoise.model.torque_terms import TERMS
 from equipoise.model.units import MINUTE, MM, UM
 
 MOST = 60  # steps in a report, chosen: two pages
 ROWS = 12  # of the table, chosen: it fits beside the verdict
 TITLE = "Centre of mass as the masses stood"
+MOVES = "What moves it, at the last report"
 
 
 def output_of(done: Keeping) -> Output:
@@ -32,8 +35,14 @@ def blocks(done: Keeping) -> Blocks:
     """Return what masses did, and the verdict; steps were shown as they came."""
     moves = f"{done.moves} move{'s' * (done.moves != 1)}"
     moved = f"{moves} of the masses while holding, {done.travel / MM:.3g} mm in all"
-    shown = (course_table(done),) if len(done.course.t) else ()
+    shown = (course_table(done), terms_table(done)) if len(done.course.t) else ()
     return (*shown, *paragraphs(moved), *verdict_blocks(done.verdict))
+
+
+def terms_table(done: Keeping) -> Table:
+    """Return what moves the centre of mass, as the last report has it: drift, heat and sag."""
+    last = next(step.estimate for step in reversed(done.steps) if step.estimate is not None)
+    return parameter_table(MOVES, [p for p in last.parameters if p.name in TERMS])
 
 
 def course_table(done: Keeping) -> Table:
