@@ -69,14 +69,14 @@ def with_part(rng: np.random.Generator, kind: str) -> tuple[oracle.Platform, fle
     while True:
         platform = oracle.random_platform(rng, mass=14.0, masses_per_axis=1, tilt=np.radians(3))
         part = make(rng, platform)
-        if flexible.is_sound(platform, part):
+        if flexible.is_sound(platform, [part]):
             return platform, part
 
 
 def strength_of(run: flexible.FlexibleRun, mode: FreeMode, part: flexible.Part) -> float:
     """Return S of a run."""
     shown = np.linalg.solve(run.run.platform.inertia_P, mode.coupling) * part.moment**0.5
-    turning = run.turning[oracle.every(run.run, 50.0)]
+    turning = run.turning[oracle.every(run.run, 50.0), 0]
     return float((shown @ shown) * np.sum((turning - turning.mean()) ** 2) / NOISE**2)
 
 
@@ -84,7 +84,7 @@ def as_strong(
     platform: oracle.Platform, part: flexible.Part, mode: FreeMode, wanted: float
 ) -> flexible.Part:
     """Return a wheel that begins so far turned that it shows as strongly as wanted."""
-    probe = flexible.simulate(platform, replace(part, angle=1e-3), (), 30.0)
+    probe = flexible.simulate(platform, [replace(part, angle=1e-3)], (), 30.0)
     return replace(part, angle=1e-3 * (wanted / strength_of(probe, mode, part)) ** 0.5)
 
 
@@ -100,7 +100,7 @@ def simulated(kind: str, seed: int) -> tuple[oracle.OracleRun, FreeMode | None]:
     if kind == "wheel":
         wanted = np.exp(rng.uniform(np.log(FLOOR), np.log(STRONGEST)))
         part = as_strong(platform, part, mode, wanted)
-    return flexible.simulate(platform, part, (ramp,), SPAN).run, mode
+    return flexible.simulate(platform, [part], (ramp,), SPAN).run, mode
 
 
 def recorded(run: oracle.OracleRun, seed: int) -> tuple[Recording, Testbed]:
