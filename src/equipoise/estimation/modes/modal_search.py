@@ -8,9 +8,8 @@ Cannot see a mode so weak that its line drowns: by the height of the line, 2 x* 
 of amplitude A in n rows of noise s being seen from n A^2 / (2 s^2) = 45 on where it does not decay.
 """
 
-from dataclasses import replace
-
-from equipoise.estimation.events.record_model import RecordModel, refitted
+from equipoise.estimation.events.record_model import RecordModel
+from equipoise.estimation.modes.hanging_fit import settled_hanging
 from equipoise.estimation.modes.modal_fit import agreed, fit_modes
 from equipoise.estimation.modes.mode_guess import guesses
 from equipoise.estimation.modes.residual_line import residual_line
@@ -50,10 +49,7 @@ def with_modes(model: RecordModel) -> RecordModel:
 
 def without_mode(model: RecordModel, k: int) -> RecordModel:
     """Return the model fitted without one of its modes, the others as they were."""
-    left = (*model.modes[:k], *model.modes[k + 1 :])
-    if left:
-        return agreed(model, left)
-    return refitted(replace(model, modes=(), params=replace(model.params, modal=None)))
+    return agreed(model, (*model.modes[:k], *model.modes[k + 1 :]))
 
 
 def earned(model: RecordModel) -> RecordModel:
@@ -69,5 +65,5 @@ def earned(model: RecordModel) -> RecordModel:
 
 def settled_modes(model: RecordModel) -> RecordModel:
     """Return the model with its modes at their optimum, all else as it was found since."""
-    model = earned(model)
+    model = settled_hanging(earned(model))
     return fit_modes(model, model.modes).model if model.modes else model

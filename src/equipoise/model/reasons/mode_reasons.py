@@ -7,6 +7,11 @@ class ModeReason(Code):
     """One thing to know about such an estimate, with its sentence."""
 
     MODE_FOUND = "mode_found", "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}."
+    MASS_HANGS = (
+        "mass_hangs",
+        "A mass that hangs is included: com moves by {sag:um .3g} um per rad of tilt, heading "
+        "{heading:deg .3g} deg.",
+    )
     SAG_MAY_HANG = (
         "sag_may_hang",
         "A part that sags may hang instead: com along the vertical may then be off by "
