@@ -14,6 +14,7 @@ from equipoise.estimation.modes.modal_fit import (
     size_of,
     sizes,
 )
+from equipoise.estimation.modes.modal_strength import strengths
 from equipoise.estimation.modes.profile_descent import ProfileFit
 from equipoise.estimation.modes.profile_estimate import with_unknowns
 from equipoise.model.arrays import Floats, Square
@@ -74,8 +75,12 @@ def with_modal_numbers(concluded: Estimate, model: RecordModel) -> Estimate:
 
 
 def mode_reasons(model: RecordModel) -> list[Reason]:
-    """Return which modes the model includes."""
+    """Return which modes the model includes, and how strongly each shows."""
     return [
-        Reason(ModeReason.MODE_FOUND, (), {"frequency": m.frequency, "damping": m.damping})
-        for m in model.modes
+        Reason(
+            ModeReason.MODE_FOUND,
+            (),
+            {"frequency": mode.frequency, "damping": mode.damping, "strength": strength},
+        )
+        for mode, strength in zip(model.modes, strengths(model), strict=True)
     ]

@@ -4,8 +4,8 @@ A line beyond chance (``residual_line``) is explained by a mode, fitted with all
 kept where twice the log likelihood grows by what the line promised, 2 x*: a line that a mode cannot
 make, with all rows of all sensors, is no mode.
 
-Cannot see a mode so weak that its line drowns: by the height of the line, 2 x* is some 45, a rate
-of amplitude A in n rows of noise s being seen from n A^2 / (2 s^2) = 45 on where it does not decay.
+Cannot see a mode so weak that its line drowns: 2 x* is some 45, and S (``modal_strength``) about as
+much where it does not die down.
 """
 
 from equipoise.estimation.events.record_model import RecordModel

@@ -6,7 +6,11 @@ from equipoise.model.reasons.reason import Code
 class ModeReason(Code):
     """One thing to know about such an estimate, with its sentence."""
 
-    MODE_FOUND = "mode_found", "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}."
+    MODE_FOUND = (
+        "mode_found",
+        "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}; it adds {strength:.2g} to "
+        "chi-square.",
+    )
     MASS_HANGS = (
         "mass_hangs",
         "A mass that hangs is included: com moves by {sag:um .3g} um per rad of tilt, heading "
