@@ -4,7 +4,7 @@ A part is a body of its own on a hinge with a spring and a damper; the platform 
 what remains of ``mujoco_bench.Platform``, which has them at rest. Development only.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import NamedTuple
@@ -40,6 +40,9 @@ class Part:
         """Return its moment of inertia about the hinge, kg m^2."""
         across = np.cross(self.axis, self.arm)
         return float(self.axis @ self.inertia @ self.axis + self.mass * across @ across)
+
+
+Maker = Callable[[np.random.Generator, oracle.Platform], Part]
 
 
 class FlexibleRun(NamedTuple):

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.dynamics.hanging_torque import HangingTorque
-from equipoise.estimation.events.record_model import RecordModel, refitted
+from equipoise.estimation.events.record_model import RecordModel, improbability, refitted
 from equipoise.estimation.modes.modal_response import with_response
 from equipoise.estimation.modes.profile_descent import Profile, ProfileFit, descended, fit_here
 from equipoise.model.arrays import Floats
@@ -80,11 +80,21 @@ def fit_hanging(model: RecordModel, mass: HangingMass) -> ProfileFit:
     return descended(profile(), model, vector_of(mass))
 
 
+def improbability_of(found: ProfileFit) -> float:
+    """Return -2 ln of how probable the record is, the mass's unknowns integrated out, too."""
+    sd = profile().sd
+    prior = float(np.sum((found.theta / sd) ** 2 + 2.0 * np.log(sd)))
+    return improbability(found.model) + prior - float(np.linalg.slogdet(found.covariance)[1])
+
+
 def settled_hanging(model: RecordModel) -> RecordModel:
-    """Return the model with its mass that hangs at the optimum; the same if it has none."""
+    """Return the model with its mass that hangs at the optimum; without where it earns no place."""
     if model.hanging is None:
         return model
-    return fit_hanging(model, model.hanging.mass).model
+    found = fit_hanging(model, model.hanging.mass)
+    less = refitted(with_response(replace(model, hanging=None), model.modes))
+    earns = not less.fitted.converged or improbability_of(found) < improbability(less)
+    return found.model if earns else less
 
 
 def fit_at(model: RecordModel) -> ProfileFit:

@@ -10,8 +10,8 @@ which S on modes are found.
 import numpy as np
 
 from equipoise.estimation.events.record_model import RecordModel
-from equipoise.estimation.modes.mode_guess import effect, residual_of
 from equipoise.estimation.modes.modal_response import ground_of, inertia_of
+from equipoise.estimation.modes.mode_guess import effect, residual_of
 from equipoise.model.modes import held
 
 
@@ -24,4 +24,4 @@ def strengths(model: RecordModel) -> tuple[float, ...]:
     observed = model.fitted.problem.observed
     noise = observed.rate_sd if rows.of_rate else observed.attitude_sd
     shown = (effect(ground, held(one, inertia), model.testbed, rows) for one in model.modes)
-    return tuple(float(np.sum(left**2)) / noise**2 for left in shown)
+    return tuple(float(np.sum(left**2) / noise**2) for left in shown)

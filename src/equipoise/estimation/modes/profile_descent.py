@@ -27,7 +27,7 @@ from equipoise.model.arrays import Floats, Square
 FINE = 1.0  # sd, chosen: by which the data change in a difference
 COARSEST = 0.2  # natural sizes, chosen: of a difference
 MOST = 20  # steps, chosen
-SETTLED = 0.1  # of chi-square, chosen
+SETTLED = 0.3  # of chi-square, chosen: half a sd of one unknown
 BOLDEST = 1e4  # chosen: damping of a step at which the search ends
 
 
