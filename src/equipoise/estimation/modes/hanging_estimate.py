@@ -39,8 +39,9 @@ def with_hanging_numbers(concluded: Estimate, model: RecordModel) -> Estimate:
 
 
 def hanging_reasons(model: RecordModel) -> list[Reason]:
-    """Return that the model includes a mass that hangs."""
+    """Return the mass that hangs in the model, if there is one."""
     if model.hanging is None:
         return []
     mass = model.hanging.mass
-    return [Reason(ModeReason.MASS_HANGS, (), {"sag": mass.sag, "heading": mass.heading})]
+    numbers = {"sag": mass.sag, "heading": mass.heading, "spring": mass.spring}
+    return [Reason(ModeReason.MASS_HANGS, (), numbers)]

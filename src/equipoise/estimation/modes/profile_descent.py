@@ -26,7 +26,7 @@ from equipoise.model.arrays import Floats, Square
 
 FINE = 1.0  # sd, chosen: by which the data change in a difference
 COARSEST = 0.2  # natural sizes, chosen: of a difference
-MOST = 20  # steps, chosen
+MOST = 12  # steps, chosen: those that settle take half
 SETTLED = 0.3  # of chi-square, chosen: half a sd of one unknown
 BOLDEST = 1e4  # chosen: damping of a step at which the search ends
 
@@ -104,11 +104,14 @@ def descended(profile: Profile, model: RecordModel, theta: Floats) -> ProfileFit
         if promised < SETTLED or damping > BOLDEST or not model.may(Stage.TERMS):
             break
         there = profile.at(here, theta + step)
-        if total(profile, there, theta + step) < total(profile, here, theta):
-            theta, here, damping = theta + step, there, max(0.1 * damping, 1e-6)
-            by_theta, varied = derivative(profile, here, theta, varied)
-        else:
+        gained = total(profile, here, theta) - total(profile, there, theta + step)
+        if gained <= 0.0:
             damping *= 10.0
+            continue
+        theta, here, damping = theta + step, there, max(0.1 * damping, 1e-6)
+        by_theta, varied = derivative(profile, here, theta, varied)
+        if gained < SETTLED:
+            break
     return fit_with(profile, here, theta, by_theta)
 
 

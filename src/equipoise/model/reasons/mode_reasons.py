@@ -13,8 +13,8 @@ class ModeReason(Code):
     )
     MASS_HANGS = (
         "mass_hangs",
-        "A mass that hangs is included: com moves by {sag:um .3g} um per rad of tilt, heading "
-        "{heading:deg .3g} deg.",
+        "A mass that hangs or bends: com moves {sag:um .3g} um per rad of tilt, heading "
+        "{heading:deg .3g} deg; spring share {spring:.2f} (0 hangs, 1 bends).",
     )
     SAG_MAY_HANG = (
         "sag_may_hang",
