@@ -22,7 +22,7 @@ from tests.oracle import mujoco_bench as oracle
 FLOOR = 100.0  # S, from which on a mode is to be found; ``modes`` measures that it is
 FAINTEST, STRONGEST = 10.0, 1e5  # S; more would be a swing beyond small angles
 STRONG = 1e4  # S of one of two wheels
-APART = 1.2  # chosen: ratio of the frequencies of two wheels
+RATIO = 1.2  # chosen: ratio of the frequencies of two wheels
 LEAN = np.radians(35.0)  # chosen: a bearing ends there
 SPAN, MOVED = 60.0, 20.0  # s, of a record, and when the masses move
 TRAVELLED = (0.003, 0.012)  # m, by which each of them moves
@@ -51,7 +51,7 @@ def with_parts(
         platform = random_platform(rng)
         parts = [one(rng, platform) for one in make]
         f = sorted(flexible.mode_of(part, platform).frequency for part in parts)
-        if flexible.is_sound(platform, parts) and np.all(np.divide(f[1:], f[:-1]) > APART):
+        if flexible.is_sound(platform, parts) and np.all(np.divide(f[1:], f[:-1]) > RATIO):
             return platform, parts
 
 

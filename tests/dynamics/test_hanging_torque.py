@@ -6,7 +6,7 @@ import scipy
 
 from equipoise.dynamics.hanging_torque import hanging_torque, sides_of, swung
 from equipoise.maths.attitude import exponential, multiply, to_matrix
-from equipoise.model.hanging import HangingMass
+from equipoise.model.hanging_mass import HangingMass
 
 UP, WEIGHT = np.array([0.0, 0.0, 1.0]), 100.0
 

@@ -8,7 +8,7 @@ import numpy as np
 from equipoise.estimation.events.record_model import RecordModel
 from equipoise.estimation.model_selection.survey import cut_times
 from equipoise.estimation.output_error.trajectory import Params, fit
-from equipoise.model.hanging import HangingMass
+from equipoise.model.hanging_mass import HangingMass
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from tests.oracle import flexible_platform as flexible

@@ -6,8 +6,8 @@ With n = g_B / |g|, u the side to which it swings and up the body axis that poin
     k theta + (1 - k) s sin(theta - phi) = 0
     torque = M g c (sin(theta) u + (1 - cos(theta)) up) x n
 
-theta is where spring and gravity leave it (``model.hanging``). For small tilts the torque is that
-of elastic sag, c (1 - k) u u^T.
+theta is where spring and gravity leave it (``model.hanging_mass``). For small tilts the torque is
+that of elastic sag, c (1 - k) u u^T.
 
 Cannot show how it swings about that place: a mode does (``modal_motion``). A platform moves some
 twenty times as slowly, and what lags then is some hundredths of its sag.
@@ -19,7 +19,7 @@ import numpy as np
 
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Series, Series1, Series3, Vector3
-from equipoise.model.hanging import HangingMass
+from equipoise.model.hanging_mass import HangingMass
 from equipoise.model.recording import Samples
 
 TURNS = 12  # of Newton's, chosen: a few reach rounding

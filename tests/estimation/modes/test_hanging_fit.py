@@ -8,7 +8,7 @@ from equipoise.estimation.methods.trajectory import METHOD
 from equipoise.estimation.modes.hanging_fit import by_theta, mass_at, settled_hanging, vector_of
 from equipoise.estimation.modes.hanging_fit import hung as with_mass
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.model.hanging import HangingMass
+from equipoise.model.hanging_mass import HangingMass
 from equipoise.model.outcome import Trust
 from equipoise.model.reasons.mode_reasons import ModeReason
 from tests.support.hanging_records import hanging_record

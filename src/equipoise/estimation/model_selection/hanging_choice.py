@@ -26,7 +26,7 @@ from equipoise.estimation.model_selection.model_choice import (
 from equipoise.estimation.modes.hanging_fit import fit_hanging, hung, improbability_of
 from equipoise.estimation.output_error.solution import chi_square_share
 from equipoise.estimation.search_budget import Stage
-from equipoise.model.hanging import HangingMass
+from equipoise.model.hanging_mass import HangingMass
 from equipoise.model.torque_terms import GROUPS, TERMS
 
 SAG = GROUPS["sag"]

@@ -10,7 +10,7 @@ from equipoise.estimation.modes.hanging_fit import by_theta, fit_at, profile
 from equipoise.estimation.modes.profile_estimate import with_unknowns
 from equipoise.model.arrays import Square
 from equipoise.model.estimate import Estimate, Parameter
-from equipoise.model.hanging import HangingMass
+from equipoise.model.hanging_mass import HangingMass
 from equipoise.model.reasons.mode_reasons import ModeReason
 from equipoise.model.reasons.reason import Reason
 

@@ -17,7 +17,7 @@ from equipoise.estimation.events.record_model import RecordModel, improbability,
 from equipoise.estimation.modes.modal_response import with_response
 from equipoise.estimation.modes.profile_descent import Profile, ProfileFit, descended, fit_here
 from equipoise.model.arrays import Floats
-from equipoise.model.hanging import HangingMass
+from equipoise.model.hanging_mass import HangingMass
 from equipoise.model.torque_terms import SIZES
 
 MEAN = 0.5  # of k, chosen: midway between what hangs and what bends
