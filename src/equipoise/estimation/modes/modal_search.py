@@ -5,7 +5,7 @@ kept where twice the log likelihood grows by what the line promised, 2 x*: a lin
 make, with all rows of all sensors, is no mode.
 
 Cannot see a mode so weak that its line drowns: 2 x* is some 45, and S (``modal_strength``) about as
-much where it does not die down.
+much where it does not die down. Of wheels that do, half were found at 50, and all from 70 on.
 """
 
 from equipoise.estimation.events.record_model import RecordModel
