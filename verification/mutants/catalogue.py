@@ -329,8 +329,8 @@ ESTIMATION = (*_of(
     ("modes/modal_response.py", "modal.torque.values + torque", "modal.torque.values - torque",
      "estimation/model_selection/test_hanging_choice.py"),
     ("modes/hanging_fit.py", "[-turned * y", "[turned * y", "estimation/modes/test_hanging_fit.py"),
-    ("model_selection/hanging_choice.py", "improbability_of(found) < improb",
-     "improbability_of(found) > improb", "estimation/model_selection/test_hanging_choice.py"),
+    ("model_selection/hanging_choice.py", "least > improbability(bent)",
+     "least < improbability(bent)", "estimation/model_selection/test_hanging_choice.py"),
     *((f"torque_by_cause/{module}.py", text, broken, f"estimation/torque_by_cause/test_{test}.py")
       for module, test, text, broken in (
         ("gauss_markov", "gauss_markov", "info - P_u.T @ spread", "info + P_u.T @ spread"),

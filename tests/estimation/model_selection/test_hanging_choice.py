@@ -5,14 +5,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.estimation.model_selection.hanging_choice import SAG, with_hanging_mass
+from equipoise.estimation.events.record_model import improbability
+from equipoise.estimation.model_selection.hanging_choice import SAG, is_shaken, with_hanging_mass
+from equipoise.model.defects import Contact
 from equipoise.model.recording import joined
 from equipoise.simulation.bench import SimulatedBench
 from tests.support.hanging_records import hanging_record, plain_model
-from tests.support.modal_records import MOVED, modal_record, modal_testbed
+from tests.support.modal_records import MOVED, modal_testbed
 
 BENDING = 2e-5  # m
 TILTED = np.radians([15.0, -9.0, 30.0])
+
+
+def record_of(seed, **changed):
+    """Return a record of a platform whose truth is changed so, and its testbed."""
+    testbed = modal_testbed()
+    truth = replace(testbed.truth, **changed)
+    bench = SimulatedBench(replace(testbed, truth=truth), seed)
+    first = bench.read(MOVED)
+    bench.move({"x": 0.0006})
+    return joined([first, bench.read(30.0)]), replace(testbed, truth=None)
 
 
 def bending_record(seed):
@@ -20,13 +32,8 @@ def bending_record(seed):
 
     c x x^T is c / 3 of (2, -1, -1) but for c / 3 of E, which gives no torque.
     """
-    testbed = modal_testbed()
     torque = {"sag_xx": 2 * BENDING / 3, "sag_yy": -BENDING / 3}
-    truth = replace(testbed.truth, torque=torque, attitude=TILTED)
-    bench = SimulatedBench(replace(testbed, truth=truth), seed)
-    first = bench.read(MOVED)
-    bench.move({"x": 0.0006})
-    return joined([first, bench.read(30.0)]), replace(testbed, truth=None)
+    return record_of(seed, torque=torque, attitude=TILTED)
 
 
 def test_a_pendulum_hangs():
@@ -45,9 +52,11 @@ def test_what_bends_is_not_taken_for_a_pendulum():
         assert mass.sag == pytest.approx(BENDING, rel=0.1)
 
 
-def test_nothing_hangs_in_a_rigid_platform():
-    recording, testbed, _ = modal_record(4)
-    model = plain_model(recording, testbed)
+@pytest.mark.parametrize("contacts", [(), (Contact(27.0, np.array([5e-4, -3e-4, 2e-4])),)])
+def test_a_touch_is_an_event_and_hangs_nowhere(contacts):
+    """It changes rates by 1 mrad/s, six times the noise of one row of the gyro."""
+    model = plain_model(*record_of(4, contacts=contacts))
+    assert is_shaken(model, improbability(model)) is bool(contacts)
     assert with_hanging_mass(model) is model
 
 

@@ -4,13 +4,15 @@ Elastic sag and a mass that hangs differ in third order of the tilt. Where sag p
 all other terms, and explains the record, both are fitted, with all else that the model has; the one
 is taken in which the record is more probable, all unknowns integrated out. The mass has three
 unknowns, and sag five. Where a record does not show whether it hangs, its spring is open, and so is
-com along the vertical by c. It comes before events and process noise, which would stand for it.
+com along the vertical by c. It comes before process noise, and before more events than one, which
+would stand for it.
 
 Cannot see the difference in small swings: at 5 deg it is 0.8 % of the sag's own torque.
 """
 
 import numpy as np
 
+from equipoise.estimation.events.noise_identification import calibrated
 from equipoise.estimation.events.record_model import (
     RecordModel,
     improbability,
@@ -23,6 +25,7 @@ from equipoise.estimation.model_selection.model_choice import (
     promise,
     with_group,
 )
+from equipoise.estimation.model_selection.model_search import touched
 from equipoise.estimation.modes.hanging_fit import fit_hanging, hung, improbability_of
 from equipoise.estimation.output_error.solution import chi_square_share
 from equipoise.estimation.search_budget import Stage
@@ -43,8 +46,15 @@ def first_masses(bent: RecordModel) -> list[HangingMass]:
 
 def promises_most(model: RecordModel) -> bool:
     """Say whether sag promises, and more than all other terms."""
-    found = {group: promise(model, group) for group in candidates(model)}
-    return found[SAG] > SURE and found[SAG] == max(found.values())
+    most = promise(model, SAG)
+    others = (group for group in candidates(model) if group != SAG)
+    return most > SURE and all(promise(model, group) < most for group in others)
+
+
+def is_shaken(model: RecordModel, improbable: float) -> bool:
+    """Say whether one unknown event explains more than what is this improbable."""
+    shaken = touched(*calibrated(model))
+    return shaken is not None and bool(improbability(shaken) < improbable)
 
 
 def with_hanging_mass(model: RecordModel) -> RecordModel:
@@ -61,4 +71,7 @@ def with_hanging_mass(model: RecordModel) -> RecordModel:
     found = fit_hanging(first, first.hanging.mass)
     if not found.model.fitted.converged:
         return model
-    return found.model if improbability_of(found) < improbability(bent) else model
+    least = improbability_of(found)
+    if least > improbability(bent) or is_shaken(model, least):
+        return model
+    return found.model
