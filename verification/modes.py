@@ -77,8 +77,13 @@ def hits_of(made: Simulated, frequencies: Sequence[float]) -> tuple[bool, ...]:
 
 
 def covered(what: str, runs: Sequence[Found]) -> list[Row]:
-    """Return whether com and inertia are in their intervals, and how large their squares are."""
-    usable = [run for run in runs if len(run.z)]
+    """Return whether com and inertia are in their intervals, and how large their squares are.
+
+    Of records that show them all.
+    """
+    usable = [run for run in runs if len(run.z) and np.all(np.isfinite(run.correlation))]
+    if not usable:
+        return []
     z = np.array([run.z for run in usable]).reshape(-1, 9)
     inside = float(np.mean(np.abs(z) < NORMAL_95))
     band = share_band((0.9, 0.99), 0.95, len(usable))
