@@ -6,6 +6,10 @@ Its unknowns are those that elastic sag has in the plane, and the share of its s
 
 with a its sag and h its heading: a mass that swings to +h swings to -h, too. Its torque follows
 from the fitted motion; it hardly changes that, as attitudes are measured.
+
+Cannot state all correlations: the torque is known in each fit, so how it changes with an attitude
+that is wrong, as by a camera that leans, is not in them. Each number is within its interval as
+stated; com over inertia, which long swings show to 1e-5, may be several of its own sd off.
 """
 
 from dataclasses import replace

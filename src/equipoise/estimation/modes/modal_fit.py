@@ -5,8 +5,9 @@ follows from the fit's own motion.
 
 Unknowns of a mode are ln W, z, ln |d|, the direction of d, and |d| e and |d| e' at the beginning.
 A mode that takes half the part but moves twice as much shakes the platform alike until the motion
-changes: |d| itself is then open, all else is not. A moment s is not among the unknowns: within some
-degrees of level a mode with s moves the platform as one of the coupling
+changes: |d| itself is then open, all else is not. Its prior is that of a part of some 3 % of the
+platform; without one, noise may make a part of most of it. A moment s is not among the unknowns:
+within some degrees of level a mode with s moves the platform as one of the coupling
 
     d + s x g_0 / W^2
 
@@ -26,7 +27,8 @@ from equipoise.model.modes import FreeMode
 
 EACH = 7  # unknowns of a mode
 ANGLE = 0.01  # rad, chosen: natural size of how a mode moves
-SD = (1.0, 5.0, 1.5, 1.0, 1.0, 10.0, 10.0)  # of priors in natural sizes, chosen: wide
+SD = (1.0, 5.0, 1.0, 1.0, 1.0, 10.0, 10.0)  # of priors in natural sizes, chosen: wide
+SHARE = 0.03  # of the platform's inertia that takes part, chosen: the mean of the prior of ln |d|
 BOLD = 1.0  # chosen: of ln |d| in a step
 TURNS = 3  # chosen: fits until a motion and its modes agree
 LEAST = 1e-9  # sqrt(kg) m, chosen: no coupling
@@ -48,18 +50,26 @@ def sizes(mode: FreeMode, moment: float) -> Floats:
     return np.array([1.0, 0.01, 1.0, 1.0, 1.0, turn, speed])
 
 
+def usual_size(moment: float) -> float:
+    """Return |d| of a part as large as parts usually are, sqrt(kg) m."""
+    return float((SHARE * moment) ** 0.5)
+
+
 def size_of(mode: FreeMode) -> float:
     """Return |d|, sqrt(kg) m."""
     return max(float(np.linalg.norm(mode.coupling)), LEAST)
 
 
 def vector_of(modes: Sequence[FreeMode], first: Sequence[FreeMode], moment: float) -> Floats:
-    """Return the unknowns of modes; frequency and coupling are relative to those at first."""
-    rows = list[Floats]()
+    """Return the unknowns of modes.
+
+    Frequency and direction count from those at first, the size of d from the usual one.
+    """
+    rows, usual = list[Floats](), usual_size(moment)
     for m, one in zip(modes, first, strict=True):
         along, x, y = directions(one) @ m.coupling
         size = size_of(m)
-        found = [np.log(m.frequency / one.frequency), m.damping, np.log(size / size_of(one)),
+        found = [np.log(m.frequency / one.frequency), m.damping, np.log(size / usual),
                  x / along, y / along, size * m.deflection, size * m.velocity]  # fmt: skip
         rows.append(np.array(found) / sizes(one, moment))
     return np.concatenate(rows)
@@ -71,7 +81,7 @@ def modes_at(theta: Floats, first: Sequence[FreeMode], moment: float) -> tuple[F
     for k, one in enumerate(first):
         x = theta[EACH * k : EACH * (k + 1)] * sizes(one, moment)
         frequency, damping = one.frequency * float(np.exp(x[0])), max(float(x[1]), 0.0)
-        size, along = size_of(one) * float(np.exp(x[2])), np.array([1.0, x[3], x[4]])
+        size, along = usual_size(moment) * float(np.exp(x[2])), np.array([1.0, x[3], x[4]])
         coupling = size / np.linalg.norm(along) * (along @ directions(one))
         found.append(FreeMode(frequency, damping, coupling, float(x[5]) / size, float(x[6]) / size))
     return tuple(found)
