@@ -12,6 +12,8 @@ A mass that hangs in all directions alike acts as one at its pivot, and is not s
 
 from dataclasses import dataclass
 
+NAMES = ("hanging_sag", "hanging_heading", "hanging_spring")  # m, rad, -; as an estimate has them
+
 
 @dataclass(frozen=True, slots=True)
 class HangingMass:

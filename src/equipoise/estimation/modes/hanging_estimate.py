@@ -10,11 +10,11 @@ from equipoise.estimation.modes.hanging_fit import by_theta, fit_at, profile
 from equipoise.estimation.modes.profile_estimate import with_unknowns
 from equipoise.model.arrays import Square
 from equipoise.model.estimate import Estimate, Parameter
-from equipoise.model.hanging_mass import HangingMass
+from equipoise.model.hanging_mass import NAMES, HangingMass
 from equipoise.model.reasons.mode_reasons import ModeReason
 from equipoise.model.reasons.reason import Reason
 
-NUMBERS = (("hanging_sag", "m"), ("hanging_heading", "rad"), ("hanging_spring", "-"))
+UNITS = ("m", "rad", "-")
 
 
 def hanging_parameters(mass: HangingMass, covariance: Square) -> tuple[Parameter, ...]:
@@ -22,7 +22,7 @@ def hanging_parameters(mass: HangingMass, covariance: Square) -> tuple[Parameter
     sd, values = np.sqrt(np.diag(covariance)), (mass.sag, mass.heading, mass.spring)
     return tuple(
         Parameter(name, unit, value, float(one))
-        for (name, unit), value, one in zip(NUMBERS, values, sd, strict=True)
+        for name, unit, value, one in zip(NAMES, UNITS, values, sd, strict=True)
     )
 
 

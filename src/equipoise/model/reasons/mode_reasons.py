@@ -8,7 +8,7 @@ class ModeReason(Code):
 
     MODE_FOUND = (
         "mode_found",
-        "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}; it adds {strength:.2g} to "
+        "A mode is included: {frequency:.4g} Hz, damping {damping:.2g}; it adds {strength:.0f} to "
         "chi-square.",
     )
     MASS_HANGS = (
