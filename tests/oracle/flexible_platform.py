@@ -1,10 +1,12 @@
-"""MuJoCo's platform with a part that oscillates: a wheel on a torsion spring, or a pendulum.
+"""MuJoCo's platform with parts that oscillate: wheels on torsion springs, or pendulums.
 
-The part is a body of its own on a hinge with a spring and a damper; the platform without it is what
-remains of ``mujoco_bench.Platform``, which has the part at rest. Development only.
+A part is a body of its own on a hinge with a spring and a damper; the platform without parts is
+what remains of ``mujoco_bench.Platform``, which has them at rest. Development only.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import NamedTuple
 
 import mujoco
@@ -40,11 +42,14 @@ class Part:
         return float(self.axis @ self.inertia @ self.axis + self.mass * across @ across)
 
 
+Maker = Callable[[np.random.Generator, oracle.Platform], Part]
+
+
 class FlexibleRun(NamedTuple):
-    """What happened, and the part's angular velocity (n,), rad/s."""
+    """What happened, and the angular velocity of each part against the platform, rad/s."""
 
     run: oracle.OracleRun
-    turning: Array
+    turning: Array  # (n, parts)
 
 
 def wheel(rng: np.random.Generator, platform: oracle.Platform) -> Part:
@@ -100,48 +105,53 @@ def without(platform: oracle.Platform, part: Part) -> oracle.Platform:
     return replace(platform, mass=mass, com=com, inertia_P=inertia)
 
 
-def is_sound(platform: oracle.Platform, part: Part) -> bool:
-    """Say whether what remains of the platform without the part is a body."""
-    mass, com, inertia = oracle.bare_body(without(platform, part))
+def is_sound(platform: oracle.Platform, parts: Sequence[Part]) -> bool:
+    """Say whether what remains of the platform without its parts is a body."""
+    mass, com, inertia = oracle.bare_body(reduce(without, parts, platform))
     return mass > 0 and is_possible(
         oracle.MassProperties(mass, com, inertia + parallel_axis(mass, com))
     )
 
 
-def model_text(platform: oracle.Platform, part: Part, dt: float) -> str:
-    """Return the MuJoCo model."""
-    text = oracle.model_text(without(platform, part), dt)
+def body_text(part: Part, name: str) -> str:
+    """Return a part as a body of MuJoCo's model."""
     inertia = part.inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     numbers = [oracle._text(v) for v in (part.hinge, part.axis, part.arm, inertia)]
-    body = (
-        f'<body name="part" pos="{numbers[0]}"><joint name="hinge" type="hinge" '
+    return (
+        f'<body name="{name}" pos="{numbers[0]}"><joint name="hinge {name}" type="hinge" '
         f'axis="{numbers[1]}" stiffness="{part.stiffness:.17g}" damping="{part.drag:.17g}"/>'
         f'<inertial pos="{numbers[2]}" mass="{part.mass:.17g}" fullinertia="{numbers[3]}"/></body>'
     )
-    return text.replace("</body></worldbody>", f"{body}</body></worldbody>")
+
+
+def model_text(platform: oracle.Platform, parts: Sequence[Part], dt: float) -> str:
+    """Return the MuJoCo model."""
+    text = oracle.model_text(reduce(without, parts, platform), dt)
+    bodies = "".join(body_text(part, f"part {k}") for k, part in enumerate(parts))
+    return text.replace("</body></worldbody>", f"{bodies}</body></worldbody>")
 
 
 def simulate(
-    platform: oracle.Platform, part: Part, schedule: tuple[oracle.Ramp, ...], duration: float,
-    dt: float = 1e-3,
+    platform: oracle.Platform, parts: Sequence[Part], schedule: tuple[oracle.Ramp, ...],
+    duration: float, dt: float = 1e-3,
 ) -> FlexibleRun:  # fmt: skip
-    """Run the platform with its part, at rest against it at the beginning but for its angle."""
-    model = mujoco.MjModel.from_xml_string(model_text(platform, part, dt))
+    """Run the platform with its parts, at rest against it at the beginning but for their angles."""
+    model = mujoco.MjModel.from_xml_string(model_text(platform, parts, dt))
     wanted = oracle.command(platform, schedule, oracle.middles(duration, dt))
-    k = len(platform.slides)
+    k, m = len(platform.slides), len(parts)
     gravity_B = oracle.matrix(platform.q).T @ (platform.gravity * DOWN)
     data = mujoco.MjData(model)
     sag = platform.slide_axes @ gravity_B / platform.servos**2
-    data.qpos[:] = np.concatenate([platform.q, sag, [part.angle]])
-    data.qvel[:] = np.concatenate([platform.rate, np.zeros(k + 1)])
+    data.qpos[:] = np.concatenate([platform.q, sag, [part.angle for part in parts]])
+    data.qvel[:] = np.concatenate([platform.rate, np.zeros(k + m)])
     start = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS))
     mujoco.mj_getState(model, data, start, mujoco.mjtState.mjSTATE_FULLPHYSICS)
     control = np.hstack([wanted, np.zeros((len(wanted), 3))])[None]
     states, _ = rollout.rollout(model, mujoco.MjData(model), start[None], control)
     rows = np.vstack([start, states[0]])[:, 1:]
     q, d, _, rate, velocity, turning = np.split(
-        rows[:, : 9 + 2 * k], np.cumsum([4, k, 1, 3, k]), axis=1
+        rows[:, : 7 + 2 * (k + m)], np.cumsum([4, k, m, 3, k]), axis=1
     )
     t = np.arange(len(rows)) * dt
     run = oracle.OracleRun(platform, t, q, rate, d, velocity, platform.com_at(d))
-    return FlexibleRun(run, turning[:, 0])
+    return FlexibleRun(run, turning)

@@ -145,6 +145,10 @@ DYNAMICS = _of(
     ("modal_motion.py", "mode[S + j] * (g[j] - level[j])", "mode[S + j] * (g[j] + level[j])",
      "dynamics/test_modal_motion.py"),
     ("modal_motion.py", "r0 - a * p", "r0 + a * p", "dynamics/test_modal_motion.py"),
+    ("hanging_torque.py", "size * np.sin(theta - phi)", "size * np.sin(theta + phi)",
+     "dynamics/test_hanging_torque.py"),
+    ("hanging_torque.py", "1.0 - np.cos(theta)", "np.cos(theta) - 1.0",
+     "dynamics/test_hanging_torque.py"),
     ("modal_inputs.py", ".values) + read_at", ".values) - read_at",
      "dynamics/test_modal_motion.py"),
     *((f"planar/{file}.py", text, broken, "dynamics/planar/test_planar_motion.py")
@@ -317,8 +321,16 @@ ESTIMATION = (*_of(
     ("modes/hanging_mass.py", "sizes[-1] - sizes[0]", "sizes[-1] + sizes[0]",
      "estimation/modes/test_hanging_mass.py"),
     ("modes/modal_search.py", "lost < 2.0", "lost > 2.0", "estimation/modes/test_modal_search.py"),
-    ("modes/modal_fit.py", "-(by_theta.T @ r)", "(by_theta.T @ r)",
+    ("modes/profile_descent.py", "-(by_theta.T @ r)", "(by_theta.T @ r)",
      "estimation/modes/test_modal_fit.py"),
+    ("modes/modal_estimate.py", "directions(one).T", "directions(one)",
+     "estimation/modes/test_modal_jacobian.py"),
+    ("modes/modal_strength.py", "/ noise**2", "/ noise", "estimation/modes/test_modal_strength.py"),
+    ("modes/modal_response.py", "modal.torque.values + torque", "modal.torque.values - torque",
+     "estimation/model_selection/test_hanging_choice.py"),
+    ("modes/hanging_fit.py", "[-turned * y", "[turned * y", "estimation/modes/test_hanging_fit.py"),
+    ("model_selection/hanging_choice.py", "least > improbability(bent)",
+     "least < improbability(bent)", "estimation/model_selection/test_hanging_choice.py"),
     *((f"torque_by_cause/{module}.py", text, broken, f"estimation/torque_by_cause/test_{test}.py")
       for module, test, text, broken in (
         ("gauss_markov", "gauss_markov", "info - P_u.T @ spread", "info + P_u.T @ spread"),

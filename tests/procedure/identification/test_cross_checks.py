@@ -115,6 +115,7 @@ def test_one_that_disagrees_makes_the_estimate_not_trustworthy(metrics):
     ("model", "code", "named"),
     [
         ({"terms": ("sag_xx", "viscous_x")}, "cross_check_leaves_out", "sag_xx"),
+        ({"terms": ("hanging_sag",)}, "cross_check_leaves_out", "hanging_sag"),
         (
             {"events": (TOUCH,)},
             "cross_check_across_events",

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.dynamics.hanging_torque import HangingTorque
 from equipoise.estimation.events.jump_test import KINDS, threshold
 from equipoise.estimation.motion.observed_vectors import observed
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
@@ -68,6 +69,7 @@ class RecordModel:
     unfinished: tuple[Stage, ...] = ()  # of the search, when its budget was spent
     rivals: tuple["Rival", ...] = ()  # models that are about as likely
     modes: tuple[FreeMode, ...] = ()  # what is not rigid, as ``params.modal`` has it
+    hanging: HangingTorque | None = None  # so is this
 
     def may(self, stage: Stage) -> bool:
         """Say whether the search of this model may go on."""

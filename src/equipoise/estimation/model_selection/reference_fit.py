@@ -38,6 +38,7 @@ from equipoise.estimation.model_selection.survey_reasons import (
     term_reasons,
     walk_reasons,
 )
+from equipoise.estimation.modes.hanging_estimate import hanging_reasons, with_hanging_numbers
 from equipoise.estimation.modes.hanging_mass import with_hanging
 from equipoise.estimation.modes.modal_estimate import mode_reasons, with_modal_numbers
 from equipoise.estimation.modes.modal_search import settled_modes, with_modes
@@ -122,6 +123,7 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
         *lean_reasons(model, concluded),
         *sensor_reasons(model, concluded),
         *mode_reasons(model),
+        *hanging_reasons(model),
         *term_reasons(added(model, requested), concluded, model.testbed),
         *lamp_reasons(model),
         *walk_reasons(model),
@@ -253,7 +255,8 @@ def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Esti
     The latter where the search was finished: it takes long, and is not needed.
     """
     concluded = with_rivals(with_response(with_moments(concluded, model), model), model)
-    concluded = with_hanging(with_modal_numbers(concluded, model), model, params.terms)
+    concluded = with_hanging_numbers(with_modal_numbers(concluded, model), model)
+    concluded = with_hanging(concluded, model, params.terms)
     concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
     residual = concluded.residual if model.unfinished else held_out(model, concluded.residual)

@@ -30,6 +30,7 @@ from equipoise.estimation.events.record_model import (
     fitted_in,
     improbability,
 )
+from equipoise.estimation.model_selection.hanging_choice import with_hanging_mass
 from equipoise.estimation.model_selection.initial_model import is_close, is_near
 from equipoise.estimation.model_selection.model_choice import levelled
 from equipoise.estimation.model_selection.model_comparison import MANY, calm, compared
@@ -73,11 +74,11 @@ def cut_times(recording: Recording) -> Series1:
 def levelled_with_modes(model: RecordModel) -> RecordModel:
     """Return the model with which a search begins: its vertical, its lamp, and its modes.
 
-    A mode comes first: process noise and events would stand for it. A motion that was not found
-    shows none.
+    A mass that hangs and a mode come first: process noise and events would stand for them. A
+    motion that was not found shows none.
     """
     found = levelled(model)
-    return with_modes(found) if is_near(found.fitted) else found
+    return with_modes(with_hanging_mass(found)) if is_near(found.fitted) else found
 
 
 def survey(

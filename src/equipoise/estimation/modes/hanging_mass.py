@@ -6,10 +6,11 @@ by c. The two differ in second order of the tilt only. The linear sag of a fit,
 
     r = r0 + C n,      c = greatest - least eigenvalue of C,
 
-has no meaning to that order where the part hangs. A record cannot show whether it does, and most
-parts bend. So a sag that nobody declared is reported with c: by so much com along the vertical may
-be off, and other numbers by some sd where the sensors are good. A mode beside a sag says that a
-mass swings: then no interval is to be trusted.
+has no meaning to that order where the part hangs. Where sag alone explains a record, a mass that
+hangs is fitted beside it (``hanging_choice``). A sag that remains, and that nobody declared, is
+reported with c: by so much com along the vertical may be off if the part hangs, and other numbers
+by some sd where the sensors are good. A mode beside such a sag says that a mass swings: then no
+interval is to be trusted.
 
 Cannot see a hanging mass that moves alike to all sides: gravity acts at its pivot, and com is as it
 acts. Nor one whose sag the record does not show.

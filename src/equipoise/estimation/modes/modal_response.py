@@ -3,7 +3,8 @@
 The coupled equations (``dynamics.modal_motion``) are followed from the fitted state at the
 beginning of each stretch: its total momentum H, which a mode changes slowly and so is the same with
 better modes, and the modes as they were at the end of the stretch before. What comes of it is the
-known input of the next fit (``dynamics.modal_inputs``).
+known input of the next fit (``dynamics.modal_inputs``). So is the torque of a mass that hangs
+(``dynamics.hanging_torque``), by the attitudes of that motion.
 """
 
 from collections.abc import Iterator, Sequence
@@ -12,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.dynamics.hanging_torque import HangingTorque, hanging_torque
 from equipoise.dynamics.modal_inputs import ModalInputs
 from equipoise.dynamics.modal_motion import follow_modes, modes_of, total_momentum
 from equipoise.dynamics.propagation import rigid_body, stacked
@@ -31,6 +33,7 @@ from equipoise.model.recording import Samples
 from equipoise.model.testbed import Testbed
 
 PHASE = 0.15  # rad of a mode between two nodes, chosen: lines between them err by 2e-3
+SLOWEST = 1.0  # rad/s, chosen: nodes where there is no mode
 
 
 class Response(NamedTuple):
@@ -59,15 +62,27 @@ class Ground(NamedTuple):
 
 
 def real_inputs(model: RecordModel) -> tuple[Series1, Floats]:
-    """Return nodes and known inputs without modes, masses where the fit has them."""
+    """Return nodes and known inputs without modes, masses where the fit has them.
+
+    A mass that hangs remains in them.
+    """
     fitted = model.fitted
-    bare = replace(model.params, modal=None, jumps=fitted.problem.jumps)
+    bare = replace(model.params, modal=hanging_input(model), jumps=fitted.problem.jumps)
     problem = problem_of(fitted.problem.recording, fitted.problem.testbed, bare)
     line, first = problem.line, KNOWN_D + len(problem.maps.momentum)
     known = line.known[:, :first].copy()
     for j, (mass, error) in enumerate(line.owners):
         known[:, KNOWN_D + mass] += fitted.point.error[error] * line.known[:, first + j]
     return line.t, known
+
+
+def hanging_input(model: RecordModel) -> ModalInputs | None:
+    """Return what a mass that hangs did in the fit; None if there is none in it."""
+    hanging = model.hanging
+    if hanging is None or hanging.torque is None:
+        return None
+    torque = hanging.torque
+    return ModalInputs(Samples(torque.t, np.zeros_like(torque.values)), torque)
 
 
 def ground_of(model: RecordModel, frequency: float) -> Ground:
@@ -134,7 +149,7 @@ def response(ground: Ground, modes: Sequence[Mode], testbed: Testbed) -> Respons
                              ground.t[part], ground.known[part])  # fmt: skip
         y[part], rate[part], own = found.y, found.rate, found.y[-1, ROWS:]
     e, p = y[:, ROWS::2], y[:, ROWS + 1 :: 2]
-    coupling = np.array([mode.coupling for mode in modes])
+    coupling = np.array([mode.coupling for mode in modes]).reshape(-1, 3)
     return Response(ground.t, y[:, :4], e, p - rate @ coupling.T)
 
 
@@ -150,8 +165,8 @@ def by_lines(t: Series1, oscillating: Floats, frequency: Floats) -> Floats:
 
 def inputs_of(found: Response, modes: Sequence[Mode], gravity: float) -> ModalInputs:
     """Return what modes do to the body: sum d e', and (sum s e) x g_B."""
-    coupling = np.array([mode.coupling for mode in modes])
-    moment = np.array([mode.moment for mode in modes])
+    coupling = np.array([mode.coupling for mode in modes]).reshape(-1, 3)
+    moment = np.array([mode.moment for mode in modes]).reshape(-1, 3)
     down: Series3 = -gravity * to_matrix(found.q)[:, 2, :]
     frequency = np.array([mode.angular_frequency for mode in modes])
     momentum = Samples(found.t, by_lines(found.t, found.velocity, frequency) @ coupling)
@@ -169,9 +184,16 @@ def with_response(model: RecordModel, modes: Sequence[FreeMode]) -> RecordModel:
     Their frequency is that of the free platform, which the record shows: a fitted inertia that is
     not yet right leaves the phase of each mode as it is.
     """
-    inertia = inertia_of(model)
+    if not modes and model.hanging is None:
+        return replace(model, modes=(), params=replace(model.params, modal=None))
+    inertia, testbed = inertia_of(model), model.testbed
     real = [held(mode, inertia) for mode in modes]
-    ground = ground_of(model, 2.0 * float(np.pi) * max(mode.frequency for mode in modes))
-    found = response(ground, real, model.testbed)
-    modal = inputs_of(found, real, model.testbed.gravity)
-    return replace(model, modes=tuple(modes), params=replace(model.params, modal=modal))
+    fastest = max((2.0 * float(np.pi) * mode.frequency for mode in modes), default=SLOWEST)
+    found = response(ground_of(model, fastest), real, testbed)
+    modal, hanging = inputs_of(found, real, testbed.gravity), model.hanging
+    if hanging is not None:
+        torque = hanging_torque(found.q, hanging.mass, testbed.up, testbed.weight)
+        hanging = HangingTorque(hanging.mass, Samples(found.t, torque))
+        modal = replace(modal, torque=Samples(found.t, modal.torque.values + torque))
+    params = replace(model.params, modal=modal)
+    return replace(model, modes=tuple(modes), hanging=hanging, params=params)

@@ -4,13 +4,12 @@ A line beyond chance (``residual_line``) is explained by a mode, fitted with all
 kept where twice the log likelihood grows by what the line promised, 2 x*: a line that a mode cannot
 make, with all rows of all sensors, is no mode.
 
-Cannot see a mode so weak that its line drowns: by the height of the line, 2 x* is some 45, a rate
-of amplitude A in n rows of noise s being seen from n A^2 / (2 s^2) = 45 on where it does not decay.
+Cannot see a mode so weak that its line drowns: 2 x* is some 45, and S (``modal_strength``) about as
+much where it does not die down. Of wheels that do, half were found at 50, and all from 70 on.
 """
 
-from dataclasses import replace
-
-from equipoise.estimation.events.record_model import RecordModel, refitted
+from equipoise.estimation.events.record_model import RecordModel
+from equipoise.estimation.modes.hanging_fit import settled_hanging
 from equipoise.estimation.modes.modal_fit import agreed, fit_modes
 from equipoise.estimation.modes.mode_guess import guesses
 from equipoise.estimation.modes.residual_line import residual_line
@@ -50,10 +49,7 @@ def with_modes(model: RecordModel) -> RecordModel:
 
 def without_mode(model: RecordModel, k: int) -> RecordModel:
     """Return the model fitted without one of its modes, the others as they were."""
-    left = (*model.modes[:k], *model.modes[k + 1 :])
-    if left:
-        return agreed(model, left)
-    return refitted(replace(model, modes=(), params=replace(model.params, modal=None)))
+    return agreed(model, (*model.modes[:k], *model.modes[k + 1 :]))
 
 
 def earned(model: RecordModel) -> RecordModel:
@@ -69,5 +65,5 @@ def earned(model: RecordModel) -> RecordModel:
 
 def settled_modes(model: RecordModel) -> RecordModel:
     """Return the model with its modes at their optimum, all else as it was found since."""
-    model = earned(model)
+    model = settled_hanging(earned(model))
     return fit_modes(model, model.modes).model if model.modes else model

@@ -24,6 +24,7 @@ from equipoise.assessment.metrics.period import Swing
 from equipoise.assessment.metrics.swing_height import Hanging
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.estimate import COM, Estimate
+from equipoise.model.hanging_mass import NAMES as HANGING
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.cross_check_reasons import CrossCheckReason as Why
 from equipoise.model.reasons.estimate_reasons import EstimateReason
@@ -137,7 +138,8 @@ def judged(metric: Metric, found: Measured, fit: CheckedFit) -> CrossCheck:
 
 def code_for(found: Measured, fit: CheckedFit) -> tuple[Why, tuple[str, ...]]:
     """Return what a check comes to, and what of the fit's torques it leaves out."""
-    left_out = among({p.name for p in fit.estimate.parameters} - set(KNOWN))
+    names = {p.name for p in fit.estimate.parameters}
+    left_out = (*among(names - set(KNOWN)), *(name for name in HANGING if name in names))
     if left_out:
         return Why.LEAVES_OUT, left_out
     if fit.estimate.events:
