@@ -24,7 +24,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.steps.displacement_choice import displacements_for, gain_by_one
-from equipoise.procedure.steps.joint_fit import Knowledge, learn, stood, without_stops
+from equipoise.procedure.steps.joint_fit import Knowledge, learn, settled, stood, without_stops
 from equipoise.procedure.steps.plain_steps import com_step, measurement_step, verdict_step
 from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
 from equipoise.procedure.steps.tilt_guard import tilted
@@ -94,6 +94,10 @@ def balance(
             stated = progress.knowledge.found
             yield com_step(bench.time, progress.knowledge, reasons_of_added(stated))
         why = reason_to_stop(bench, progress, options, began)
+        if why is not None:
+            known = settled(progress.knowledge, bench.testbed, options.budget)
+            progress = replace(progress, knowledge=known)
+            why = reason_to_stop(bench, progress, options, began)
         if why is not None:
             bench.stop()
             yield final(bench, progress, options, why)

@@ -54,6 +54,7 @@ from equipoise.procedure.balancing.hold_verdict import (
 from equipoise.procedure.balancing.motion_budget import (
     NO_LIMIT,
     MotionBudget,
+    longest_first,
     reached,
     slowed,
     speed_for,
@@ -221,6 +222,7 @@ def acted(
     if goal is None:
         return held, steps, None
     now = posterior_of(held, testbed)
+    goal = longest_first(bench.testbed, held.displacement, goal, options.motion)
     parting = before_moving(now, testbed, held.displacement, goal)
     move = planned_move(testbed, held.displacement, goal, parting, MoveReason.DRIFT)
     bench.move(move.targets, speed_for(bench.testbed, goal - held.displacement, options.motion))

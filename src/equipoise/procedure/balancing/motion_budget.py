@@ -21,9 +21,12 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.model.arrays import Floats
+from equipoise.model.bench_requests import in_steps
 from equipoise.model.testbed import Testbed
 
 SECOND = 1.0  # s, over which the mean square is taken
+LITTLE = 0.5  # of the longest way, chosen: a mass with less waits until it is more
+ROUNDING = 1e-9  # m, chosen: less is no way
 START = 0.01  # s, chosen: a stepper reaches some um/s within a few steps
 
 
@@ -41,7 +44,8 @@ USUAL = MotionBudget(2e-6)  # chosen: what an experiment on a few kg hardly meas
 
 def speed_for(testbed: Testbed, way: Floats, budget: MotionBudget) -> float:
     """Return how fast (m/s) masses may travel along ``way`` (m, displacements to go)."""
-    return _speed(mass_maps(testbed.masses), testbed.gravity, np.sign(way), budget)
+    going = np.where(np.abs(way) > ROUNDING, np.sign(way), 0.0)
+    return _speed(mass_maps(testbed.masses), testbed.gravity, going, budget)
 
 
 def _speed(maps: MassMaps, gravity: float, sign: Floats, budget: MotionBudget) -> float:
@@ -51,6 +55,19 @@ def _speed(maps: MassMaps, gravity: float, sign: Floats, budget: MotionBudget) -
     torque = float(np.sqrt(2.0 * h**2 / (START * SECOND) + (rate * SECOND) ** 2 / 3.0))
     used = ((budget.torque, torque), (budget.torque_rate, rate))
     return min(limit / amount if amount > 0 else np.inf for limit, amount in used)
+
+
+def longest_first(testbed: Testbed, now: Floats, goal: Floats, budget: MotionBudget) -> Floats:
+    """Return displacements (m) to go to with masses of little way left standing, if that is faster.
+
+    Masses of one move share its speed. One that goes alone may go faster: what drifts along one
+    axis is otherwise followed no faster than what drifts along all.
+    """
+    way, masses = np.abs(goal - now), testbed.masses
+    stay = np.array([in_steps(mass, float(d)) for mass, d in zip(masses, now, strict=True)])
+    fewer = np.where(way < LITTLE * way.max(), stay, goal)
+    faster = speed_for(testbed, fewer - now, budget) > speed_for(testbed, goal - now, budget)
+    return fewer if faster else goal
 
 
 def slowed(testbed: Testbed, budget: MotionBudget) -> Testbed:
