@@ -152,7 +152,8 @@ def test_without_measurements_it_drifts_on_and_is_known_less():
     later = unattended(state, 100.0)
     np.testing.assert_allclose(later.com, [5 * UM, 0, 0], atol=1e-15)
     walks = 0.05**2 * 100 + (5e-4) ** 2 * 100**3 / 3  # um^2: of r, and of its rate
+    shared = (5e-4) ** 2 * 100**2 / 2  # um^2/s
     assert later.covariance[6, 6] / UM**2 == pytest.approx(0.04 + 2 * 100 * 0.001 + 1.0 + walks)
-    assert later.covariance[6, 18] / UM**2 == pytest.approx(0.001 + 100 * 1e-4)
+    assert later.covariance[6, 18] / UM**2 == pytest.approx(0.001 + 100 * 1e-4 + shared)
     assert later.covariance[18, 6] == pytest.approx(later.covariance[6, 18])
     assert later.covariance[18, 18] / UM**2 == pytest.approx(1e-4 + (5e-4) ** 2 * 100)

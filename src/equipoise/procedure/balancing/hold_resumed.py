@@ -4,7 +4,7 @@ Meanwhile, for a time T, the centre of mass went on drifting as the tracker has 
 measured:
 
     r <- r + v T,    P_rr <- P_rr + T (P_rv + P_vr) + T^2 P_vv + (q_r^2 T + q_v^2 T^3 / 3) E,
-    P_rv <- P_rv + T P_vv,    P_vv <- P_vv + q_v^2 T E
+    P_rv <- P_rv + T P_vv + q_v^2 T^2 / 2 E,    P_vv <- P_vv + q_v^2 T E
 
 and it may be warmer or cooler by some kelvins. It sags as it did. Attitude and rate are taken from
 fresh rows. Masses must stand where they stood.
@@ -101,6 +101,8 @@ def unattended(state: tracker.State, gap: float) -> tracker.State:
     P[COM, :] += gap * v.T
     P[:, COM] += gap * P[:, RATE_OF_COM]
     P[COM, COM] += (COM_WALK**2 * gap + DRIFT_WALK**2 * gap**3 / 3) * E
+    P[COM, RATE_OF_COM] += 0.5 * DRIFT_WALK**2 * gap**2 * E
+    P[RATE_OF_COM, COM] += 0.5 * DRIFT_WALK**2 * gap**2 * E
     P[RATE_OF_COM, RATE_OF_COM] += DRIFT_WALK**2 * gap * E
     P[COM, COM] += WARMER**2 * np.outer(state.thermal, state.thermal)
     return replace(state, com=state.com + gap * state.drift, covariance=P)
