@@ -28,7 +28,7 @@ from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balancing.hold import DRIFT_WALK, Held, params_for
 from equipoise.procedure.balancing.hold_posterior import COM_WALK
-from equipoise.procedure.steps.sampler import last_row
+from equipoise.procedure.steps.sampler import last_row, no_attitude
 
 FIRST = 1.0  # s, chosen: for an attitude, of every camera
 WARMER = 2.0  # K, chosen: one sd of what a laboratory changes meanwhile
@@ -70,8 +70,7 @@ def resumed(bench: Bench, kept: Kept, gap: float) -> Held:
     """
     fresh = bench.read(FIRST)
     if fresh.attitude is None or not len(fresh.attitude):
-        found, wanted = f"no attitude in {FIRST:g} s", "an attitude sensor that gives rows"
-        raise InputError("bench", found, wanted)
+        raise no_attitude(FIRST)
     body = tracker.Posterior(kept.com, kept.inertia_P, kept.covariance[:9, :9],
                              Warmth(kept.thermal, np.zeros((3, 12))))  # fmt: skip
     t = float(fresh.attitude.t[-1])

@@ -36,7 +36,7 @@ from equipoise.model.torque_terms import TERMS, among
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.steps.joint_fit import as_if_stiff
 from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step
-from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
+from equipoise.procedure.steps.sampler import Eyes, no_attitude, opened, sample_of, sampled
 from equipoise.procedure.steps.swing_verdict import stop_step, swing_verdict
 from equipoise.procedure.steps.tilt_guard import guarded, tilted
 from equipoise.procedure.steps.verify import Aim
@@ -154,8 +154,7 @@ def first_sight(bench: Bench) -> tuple[Session, Sample]:
     eyes = sampled(before, fresh, testbed)
     observed = sample_of(before, eyes, fresh, testbed)
     if observed is None:
-        found, wanted = f"no attitude in {SETTLE:g} s", "an attitude sensor that gives rows"
-        raise InputError("bench", found, wanted)
+        raise no_attitude(SETTLE)
     return Session(eyes, opened_hands(testbed, eyes.displacement), (fresh,)), observed
 
 

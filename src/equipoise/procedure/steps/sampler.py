@@ -11,6 +11,7 @@ from equipoise.estimation.motion.attitude_filter import AttitudeState, followed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.devices import CoilPair, JetPair, at_start
+from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
@@ -105,3 +106,9 @@ def field_of(
         return None
     turned: Vector3 = to_matrix(attitude.q).T @ known
     return turned
+
+
+def no_attitude(seconds: float) -> InputError:
+    """Return the error of a bench that gave no attitude in so many seconds."""
+    found, wanted = f"no attitude in {seconds:g} s", "an attitude sensor that gives rows"
+    return InputError("bench", found, wanted)
