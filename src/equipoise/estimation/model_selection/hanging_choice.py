@@ -69,7 +69,7 @@ def with_hanging_mass(model: RecordModel) -> RecordModel:
     first = nearest([hung(model, mass) for mass in first_masses(bent)])
     assert first.hanging is not None
     found = fit_hanging(first, first.hanging.mass)
-    if not found.model.fitted.converged:
+    if not found.model.fitted.converged or not model.may(Stage.TERMS):
         return model
     least = improbability_of(found)
     if least > improbability(bent) or is_shaken(model, least):

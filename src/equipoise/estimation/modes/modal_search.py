@@ -37,8 +37,11 @@ def another(model: RecordModel) -> RecordModel:
 def with_modes(model: RecordModel) -> RecordModel:
     """Return the model with all modes that its record shows beside those that it has.
 
-    A fit that did not converge leaves more than noise and modes: nothing is sought in that.
+    A fit that did not converge leaves more than noise and modes: nothing is sought in that, nor
+    after a search that was cut short.
     """
+    if model.unfinished:
+        return model
     while len(model.modes) < MOST and model.fitted.converged and model.may(Stage.TERMS):
         found = another(model)
         if found is model:
@@ -64,6 +67,11 @@ def earned(model: RecordModel) -> RecordModel:
 
 
 def settled_modes(model: RecordModel) -> RecordModel:
-    """Return the model with its modes at their optimum, all else as it was found since."""
+    """Return the model with its modes at their optimum, all else as it was found since.
+
+    What a search that was cut short has stays as it is.
+    """
+    if model.unfinished:
+        return model
     model = settled_hanging(earned(model))
     return fit_modes(model, model.modes).model if model.modes else model
