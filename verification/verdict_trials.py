@@ -155,7 +155,7 @@ class Trial(NamedTuple):
 
 TRIALS: Mapping[str, Trial] = {
     "procedure.balancing.balance": Trial(CENTRED, balance),
-    "procedure.balancing.run_law": Trial(CENTRED, law, 5),
+    "procedure.steps.swing_verdict": Trial(CENTRED, law, 5),
     "procedure.balancing.balance_manually": Trial(CENTRED, by_hand, 2),
     "procedure.balancing.hold_verdict": Trial(HELD, hold, 10),
     "procedure.identification.requirement, torque": Trial(TORQUE, partial(requirement, TORQUE)),
