@@ -213,7 +213,7 @@ def main(words: Sequence[str]) -> int:
         check_writable(target)
     date = requested.date or datetime.datetime.now(tz=datetime.UTC).date().isoformat()
     results: list[Result] = []
-    sections = {} if whole or target is None else kept_in(target)
+    sections: dict[str, str] = {}
     for name in names:
         seeds = requested.seeds or CHECKS[name].seeds
         result, seconds = measured(name, seeds, engine)
@@ -221,6 +221,7 @@ def main(words: Sequence[str]) -> int:
         results.append(result)
         sections[name] = section(result, command_of(name, seeds), seconds, date)
     if target is not None:
+        sections = ({} if whole else kept_in(target)) | sections  # others may have written since
         write_whole(target, page(sections[name] for name in CHECKS if name in sections))
         console.print(f"Wrote {target}.")
     return 1 if any(result.missed for result in results) else 0
