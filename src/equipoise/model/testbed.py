@@ -48,6 +48,7 @@ PLUMB_SD = math.radians(0.3)  # chosen: a camera levelled by eye, or a floor for
 CLOCK_SD = 1e-4  # relative, chosen: a crystal
 AT_STOP = 0.98  # of the tilt limit, chosen: 0.6 deg of 30, three times a camera's noise
 LAG_SD = 0.03  # s, chosen: a soft servo's 25 ms, or a row of a log at 50 Hz
+AIR_TIME = 30.0  # s, chosen: in which the air's torque forgets, currents in a room
 # How a platform sits on its bearing (da Silva et al. 2021, table 1).
 Layout = Literal["table-top", "umbrella", "dumbbell", "spherical-rotor"]
 

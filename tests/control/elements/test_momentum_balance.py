@@ -10,6 +10,7 @@ from equipoise.control.elements.attitude_pid import at_rest, gains_for, torque, 
 from equipoise.control.law import Sample
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command
+from equipoise.model.testbed import AIR_TIME
 from tests.support.plain_loop import GRAVITY, INERTIA, MASS, Truth, begun, go, platform, sample
 
 NONE = np.zeros(3)
@@ -125,7 +126,7 @@ def test_drift_is_integrated_from_the_first_sample_to_the_requested_time():
 
 
 def test_play_of_the_air_is_a_torque_on_the_platform_of_a_stated_sd():
-    """It puts +x momentum in where it is positive; without samples it forgets in PLAY_TIME."""
+    """It puts +x momentum in where it is positive; without samples it forgets in AIR_TIME."""
     bed = platform()
     book, q = ml.book_of(bed), np.array([1.0, 0, 0, 0])
     ledger = ml.opened(bed, book, observed_at(q))
@@ -134,7 +135,7 @@ def test_play_of_the_air_is_a_torque_on_the_platform_of_a_stated_sd():
     ahead = ledger._replace(x=x, P=P)
     for k in range(300):
         ahead = ml.predicted(ahead, observed_at(q, 0.1 * (k + 1)), book)
-    time, spent = ml.PLAY_TIME, 1 - np.exp(-30.0 / ml.PLAY_TIME)
+    time, spent = AIR_TIME, 1 - np.exp(-30.0 / AIR_TIME)
     assert ahead.x[0] == pytest.approx(1e-6 * time * spent, rel=1e-4)
     assert ahead.x[ml.PLAY] == pytest.approx(1e-6 * (1 - spent))
     assert ahead.P[ml.PLAY, ml.PLAY] == pytest.approx(bed.air_torque**2 * (1 - (1 - spent) ** 2))

@@ -39,13 +39,12 @@ from equipoise.maths.attitude import to_matrix
 from equipoise.maths.kernels.compiled import kernel
 from equipoise.maths.linalg import cross, skew
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
-from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.model.testbed import AIR_TIME, SlidingMass, Testbed
 from equipoise.model.torque_terms import GROUPS, TERMS, typical_sizes
 from equipoise.model.units import MINUTE
 
 L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 
-PLAY_TIME = 30.0  # s, chosen: currents of air in a room
 BIAS_SD = 1e-4  # rad/s, chosen: a camera of 0.2 deg and 5 Hz leaves so much after ten seconds
 LEFT = 0.2  # of that random walk, chosen: the rest where a constant drift is a term of its own
 SAME_TURN = 10.0  # s, chosen: as long as a turn lasts, in which an error of J w keeps its sign
@@ -151,7 +150,7 @@ def predicted(ledger: Ledger, sample: Sample, book: Book) -> Ledger:
     dt = sample.t - ledger.t
     rows, R = rows_at(sample, book, ledger.begin), to_matrix(sample.q)
     mean = 0.5 * dt * (ledger.rows + rows)
-    stay = float(np.exp(-dt / PLAY_TIME))
+    stay = float(np.exp(-dt / AIR_TIME))
     F = np.eye(len(ledger.x))
     F[:3, PLAY:BIAS] = 0.5 * dt * (ledger.R + stay * R)
     F[PLAY:BIAS, PLAY:BIAS] *= stay

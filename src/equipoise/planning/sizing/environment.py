@@ -23,7 +23,7 @@ import numpy as np
 
 from equipoise.dynamics.sag_trim import downs, residual_torque, trimmed_com
 from equipoise.model.arrays import Matrix3, Vector3
-from equipoise.model.testbed import Testbed
+from equipoise.model.testbed import AIR_TIME, Testbed
 from equipoise.planning.sizing.expected_torque import (
     ASSUMED,
     PARTLY,
@@ -35,7 +35,6 @@ from equipoise.planning.sizing.expected_torque import (
 
 EARTH_RADIUS = 6.371e6  # m, mean
 EARTH_RATE = 7.292e-5  # rad/s
-AIR_TIME = 30.0  # s, chosen: in which the air's torque forgets, currents in a room
 AIR_DENSITY = 1.2  # kg/m^3, at 20 C and 1013 hPa
 
 

@@ -97,9 +97,8 @@ def as_it_sags(knowledge: Knowledge, testbed: Testbed) -> Knowledge:
     sag, recording = testbed.in_group("sag"), knowledge.recording
     if not sag:
         return knowledge
-    considered = (*considered_in(recording, testbed), *sag)
-    setup = FitSetup(recording, as_if_stiff(testbed), considered, UNLIMITED)
-    known = explained(setup, None)
+    setup = setup_for(recording, testbed, UNLIMITED)
+    known = explained(replace(setup, considered=(*setup.considered, *sag)), None)
     parameters, covariance = spread_of(known.fitted)
     return replace(
         known, estimate=replace(known.estimate, parameters=parameters, covariance=covariance)
@@ -125,8 +124,7 @@ def learn(
     testbed = as_if_stiff(testbed)
     fresh = replace(fresh, masses=without_flicker(fresh, testbed))
     recording = fresh if before is None else join(before.recording, fresh)
-    considered = considered_in(recording, testbed)
-    known = explained(FitSetup(recording, testbed, considered, allowed), before)
+    known = explained(setup_for(recording, testbed, allowed), before)
     searched, (start, end) = 0.0 if before is None else before.searched, recording.span
     known = replace(known, searched=searched)
     return known if end - start < LONGER * searched else settled(known, testbed, allowed)
@@ -142,9 +140,7 @@ def settled(known: Knowledge, testbed: Testbed, allowed: Budget = UNLIMITED) -> 
     seconds = known.recording.span[1] - known.recording.span[0]
     if not known.found or seconds <= known.searched:
         return known
-    testbed = as_if_stiff(testbed)
-    considered = considered_in(known.recording, testbed)
-    setup = FitSetup(known.recording, testbed, considered, allowed)
+    setup = setup_for(known.recording, testbed, allowed)
     other = fitted_in(setup, None, known.found)
     if not (other.fitted.converged and other.fitted.at.cost < known.fitted.at.cost - AS_WELL):
         return replace(known, searched=seconds)
@@ -152,10 +148,12 @@ def settled(known: Knowledge, testbed: Testbed, allowed: Budget = UNLIMITED) -> 
     return replace(fitted_in(setup, other, kept), searched=seconds)
 
 
-def considered_in(recording: Recording, testbed: Testbed) -> tuple[str, ...]:
-    """Return the terms to consider, without warmth where it stayed as warm."""
-    warm = warms(recording, testbed)
-    return tuple(term for term in CONSIDERED if warm or term not in THERMAL)
+def setup_for(recording: Recording, testbed: Testbed, allowed: Budget) -> FitSetup:
+    """Return how to fit a record as of a stiff platform; warmth counts where it did not stay so."""
+    stiff = as_if_stiff(testbed)
+    warm = warms(recording, stiff)
+    considered = tuple(term for term in CONSIDERED if warm or term not in THERMAL)
+    return FitSetup(recording, stiff, considered, allowed)
 
 
 def explained(setup: FitSetup, before: Knowledge | None) -> Knowledge:

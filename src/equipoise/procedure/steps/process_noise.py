@@ -15,10 +15,9 @@ sqrt(2 T / t) s / (m g). While t < T that is too wide, up to twice.
 
 import numpy as np
 
-from equipoise.control.elements.momentum_balance import PLAY_TIME
 from equipoise.estimation.output_error.segment_jumps import Jump, inside, walk
 from equipoise.model.estimate import COM, RATE
-from equipoise.model.testbed import Testbed
+from equipoise.model.testbed import AIR_TIME, Testbed
 from equipoise.model.units import MINUTE
 
 SPACING = 2.0  # s, chosen: between jumps, a 15th of the time constant
@@ -28,7 +27,7 @@ def process_noise(testbed: Testbed, span: tuple[float, float]) -> tuple[Jump, ..
     """Return its jumps within a record that begins and ends at these times (s)."""
     start, end = span
     moments = np.diag(testbed.body.inertia_P)
-    rate = testbed.air_torque * np.sqrt(2 * PLAY_TIME * SPACING) / moments
+    rate = testbed.air_torque * np.sqrt(2 * AIR_TIME * SPACING) / moments
     com = np.full(3, testbed.com_walk * np.sqrt(SPACING / MINUTE))
     times = np.arange(start + SPACING, end - SPACING / 2, SPACING)
     return inside(walk(times, (*RATE, *COM), np.concatenate([rate, com])), start, end)
