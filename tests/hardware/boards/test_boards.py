@@ -13,10 +13,19 @@ from equipoise.hardware.emulated.registry import FIRMWARES
 from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.errors import BenchStopped, InputError
-from equipoise.model.units import MM
+from equipoise.model.units import MM, UM
 from tests.support.board_wire import BED, LETTERS, TURN, Wire, board_of
 
 SPEED = 8 * MM
+
+
+def coarse(kind, steps_per_mm):
+    """Return a board whose motors make so many steps per mm."""
+    board = board_of(kind)
+    axes = tuple(replace(axis, steps_per_m=steps_per_mm / MM) for axis in board.axes)
+    return replace(board, axes=axes)
+
+
 every_board = pytest.mark.parametrize("kind", sorted(BOARDS))
 
 
@@ -106,19 +115,39 @@ def test_a_long_way_is_gone_without_a_pause_between_legs(kind, turn):
 
 
 @every_board
-def test_a_mass_creeps_when_a_way_is_slow(kind):
-    """60 um at 20 um/s take 3 s at least, and never is it a leg further than that."""
-    wire = Wire(kind).at_home()
-    begun = wire.t
-    wire.driver.go({"x": 0.06 * MM}, begun, 0.02 * MM)
-    wire.run(6.0, until="ready")
-    t = np.arange(begun, wire.t, 0.01)
-    way = np.array([wire.true("x", k) for k in t])
-    assert np.all(way <= 0.02 * MM * (t - begun + LEG))
-    assert 0.9 < (wire.t - begun) / 3.0 < 1.4
-    assert wire.true("x") == pytest.approx(0.06 * MM, abs=2e-6)
+@pytest.mark.parametrize(
+    ("um_s", "steps_per_mm", "turn"), [(20.0, 800.0, 0.01), (3.3, 800.0, 0.05), (3.3, 100.0, 0.05)]
+)
+def test_a_mass_creeps_when_a_way_is_slow(kind, um_s, steps_per_mm, turn):
+    """60 um at 20 um/s take 3 s at least; never is a mass more than a leg or a step too far.
+
+    At 3.3 um/s a step of 10 um takes twelve legs, and its rounding more than one.
+    """
+    wire = Wire(kind, coarse(kind, steps_per_mm), turn=turn).at_home()
+    begun, way, speed, step = wire.t, 60 * UM, um_s * UM, MM / steps_per_mm
+    wire.driver.go({"x": way, "y": -way}, begun, speed)
+    state = wire.run(2 * way / speed, until="ready")
+    assert state.phase == "ready"
+    t = np.arange(begun, wire.t, 0.02)
+    for name, sign in (("x", 1), ("y", -1)):
+        gone = sign * np.array([wire.true(name, k) for k in t])
+        assert np.all(gone <= speed * (t - begun + 2 * LEG) + step)
+        assert wire.true(name) == pytest.approx(sign * way, abs=step / 2 + 2e-6)
+    assert way - step < speed * (wire.t - begun) < way + speed * 1.5 + step
     wire.driver.go({"x": 8.06 * MM}, wire.t)
     assert wire.run(1.5).position["x"] == pytest.approx(8.06 * MM, abs=2e-6)
+
+
+@every_board
+def test_slow_ways_in_a_row_all_arrive(kind):
+    """As a hold sends them: another goal before the last is reached, in steps of motors."""
+    wire = Wire(kind, turn=0.05).at_home()
+    for k in range(1, 13):
+        wire.driver.go({"x": 10 * k * UM, "z": -20 * k * UM}, wire.t, 3.3 * UM)
+        wire.run(5.0)
+    wire.run(30.0, until="ready")
+    assert wire.true("x") == pytest.approx(120 * UM, abs=2e-6)
+    assert wire.true("z") == pytest.approx(-240 * UM, abs=2e-6)
 
 
 @every_board

@@ -14,6 +14,7 @@ from equipoise.hardware.boards.grbl.report import (
     parsed,
 )
 from equipoise.hardware.boards.grbl.settings import disagreement
+from equipoise.model.reasons.board_faults import BoardFault
 from equipoise.model.units import MM
 from tests.support.board_wire import BED, Wire, board_of
 
@@ -103,3 +104,25 @@ def test_a_status_that_lost_an_axis_is_broken_and_changes_nothing():
     assert wire.driver.counts.corrupt == corrupt + 1
     wire.driver.go({"z": 1 * MM}, wire.t)
     assert wire.run(1.0).position["z"] == pytest.approx(1 * MM, abs=2e-6)
+
+
+def test_masses_that_stand_on_their_way_are_a_fault(monkeypatch):
+    """A board that refuses every jog moves nothing, however often it answers."""
+    wire = Wire("grbl").at_home()
+    monkeypatch.setattr(wire.remote.board, "_jog", lambda _line: b"error:8\r\n")
+    wire.driver.go({"x": 4 * MM}, wire.t)
+    state = wire.run(6.0, until="fault")
+    assert state.fault is not None
+    assert state.fault.code is BoardFault.STALLED
+    assert state.fault.numbers["waited"] == pytest.approx(5.0, abs=0.2)
+
+
+def test_a_way_of_less_than_half_a_step_is_over_at_once():
+    """A step is 1.25 um here: 0.5 um are none, and 1 um is one."""
+    wire = Wire("grbl").at_home()
+    wire.driver.go({"x": 0.5e-6}, wire.t)
+    assert wire.run(1.0, until="ready").goal["x"] == 0.5e-6
+    assert wire.true("x") == pytest.approx(0.0, abs=1e-9)
+    wire.driver.go({"x": 1e-6}, wire.t)
+    wire.run(1.0, until="ready")
+    assert wire.true("x") == pytest.approx(1.25e-6, abs=1e-9)

@@ -40,7 +40,40 @@ def next_leg(
 
 
 def time_left(
-    here: Mapping[str, float], goal: Mapping[str, float], speed: Mapping[str, float]
+    here: Mapping[str, float],
+    goal: Mapping[str, float],
+    speed: Mapping[str, float],
+    rounding: Mapping[str, float],
 ) -> float:
-    """Return how long masses still need to a goal, s."""
-    return max((abs(goal[name] - here[name]) / speed[name] for name in goal), default=0.0)
+    """Return how long masses still need to a goal, s; within ``rounding`` (m) they are there.
+
+    A slow mass needs longer for the rounding of its position than for a leg.
+    """
+    ways = {name: abs(goal[name] - here[name]) for name in goal}
+    ways = {name: way for name, way in ways.items() if way > rounding[name]}
+    return max((way / speed[name] for name, way in ways.items()), default=0.0)
+
+
+class Pacemaker:
+    """Where masses would be that go at the commanded speed from where they set off.
+
+    A board has a least speed; masses that must be slower are led, as far ahead as a leg is long.
+    """
+
+    def __init__(self) -> None:
+        self._at: dict[str, float] = {}
+        self._t = 0.0
+
+    def begin(self, at: Mapping[str, float], t: float) -> None:
+        """Set off from a place at t s."""
+        self._at, self._t = dict(at), t
+
+    def led(
+        self, goal: Mapping[str, float], speed: Mapping[str, float], t: float
+    ) -> Mapping[str, float]:
+        """Return where masses would be at t s, on their way to a goal at ``speed``."""
+        passed, self._t = t - self._t, t
+        for name, end in goal.items():
+            way, most = end - self._at[name], passed * speed[name]
+            self._at[name] += max(-most, min(most, way))
+        return self._at

@@ -23,7 +23,7 @@ from equipoise.hardware.boards.grbl.codes import IDLE_ERROR, alarm_text, error_t
 from equipoise.hardware.boards.grbl.halt import Halting, Wish
 from equipoise.hardware.boards.grbl.lateness import too_late
 from equipoise.hardware.boards.grbl.lines import step_command
-from equipoise.hardware.boards.grbl.place import DIGIT, Place
+from equipoise.hardware.boards.grbl.place import Place, rounding_of
 from equipoise.hardware.boards.grbl.report import (
     Code,
     Greeting,
@@ -99,7 +99,7 @@ class Grbl(BoardDriver):
         self._talk.clock.turn(t)
         self._watch()
         if self.state.phase in (Phase.MOVING, Phase.HOMING) and self.state.goal:
-            self._leg()
+            self._leg(t)
         return self._talk.due(t, POLLS.get(self.state.phase, POLL))
 
     def home(self, t: float) -> None:
@@ -174,9 +174,10 @@ class Grbl(BoardDriver):
                 text = alarm_text(code.number)
                 self._fault(BoardFault.ALARM, text, lost=True, number=code.number)
             return
+        waited_from = self._since
         refused = self._answered(t)
         if refused is Step.LEG and code.number == IDLE_ERROR:
-            self._route.refused = True
+            self._route.refused, self._since = True, waited_from  # no mass goes on by that
         elif refused is not None and not (refused is Step.LEG and self.state.phase is Phase.HALTED):
             text = f"{error_text(code.number)} (error:{code.number} to {refused})"
             self._fault(BoardFault.REFUSED, text, lost=refused is not Step.LEG)
@@ -223,6 +224,8 @@ class Grbl(BoardDriver):
             self.count(corrupt=1)
         elif self._place.at:
             self.state = replace(self.state, position=self._place.at, reported=arrived)
+            if self.state.phase is not Phase.HALTED and self._place.still == arrived:
+                self._since = self._talk.clock.now  # a way goes on
 
     # --- What it means -----------------------------------------------------------------------
 
@@ -281,15 +284,14 @@ class Grbl(BoardDriver):
 
     def _arrived(self) -> None:
         """Let a way end where the board stands, all legs sent and taken."""
-        self._since = self._talk.clock.now
         if self._route.refused:
             self._route.begin(self.state.position)
         if not self._talk.queue.over or self._route.sent != self.state.goal:
             return
         position, goal = self.state.position, self.state.goal
         there = all(
-            abs(position[axis.mass] - goal[axis.mass]) <= DIGIT + 0.5 / axis.steps_per_m
-            for axis in self._axes
+            abs(position[mass] - goal[mass]) <= rounding
+            for mass, rounding in rounding_of(self._axes).items()
         )
         if there or self._talk.arrived - max(self._place.still, self._changed) > SETTLED:
             self.state = replace(self.state, phase=Phase.READY, sure=True)
@@ -306,12 +308,12 @@ class Grbl(BoardDriver):
         whole = {name: goal.get(name, at) for name, at in self._route.sent.items()}
         self.state = replace(self.state, phase=phase, goal=whole)
 
-    def _leg(self) -> None:
+    def _leg(self, t: float) -> None:
         """Send the next leg when little is left of those before."""
         status = self._talk.status
         if status is None or status.state not in TAKES_LEGS or not self._talk.queue.over:
             return
-        leg = self._route.following(self._axes, self.state.position, self.state.goal)
+        leg = self._route.following(self._axes, self.state.position, self.state.goal, t)
         if leg is not None:
             self._talk.queue.put([leg])
 

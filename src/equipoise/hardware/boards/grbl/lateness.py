@@ -66,8 +66,6 @@ def _stalled(talk: GrblTalk, phase: Phase, waited: float) -> Late | None:
     if phase is Phase.HALTED:
         reason = Reason(BoardFault.NOT_STOPPED, (state,), {"waited": waited})
         return Late(reason, lost=True, reset=True)
-    if state is MachineState.JOG:
-        return None
     return Late(Reason(BoardFault.STALLED, (state,), {"waited": waited}), lost=False)
 
 

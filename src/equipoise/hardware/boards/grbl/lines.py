@@ -8,7 +8,7 @@ from equipoise.hardware.transport.command_queue import Command
 from equipoise.model.hardware import Axis
 from equipoise.model.units import MINUTE, MM
 
-SLOWEST = 1.0  # mm/min, chosen: a feed of nothing is refused
+SLOWEST = 1.0  # mm/min: the firmware's least feed (config.h); 0 is refused
 PATIENCE = 1.5  # s, chosen: for a line; it waits while the board prints or a jog ends
 TEXTS = {
     Step.SETTINGS: b"$$\n",

@@ -56,6 +56,11 @@ class Place:
         return next((each for each in moved if abs(each[1] - each[2]) > 2 * DIGIT), None)
 
 
+def rounding_of(axes: Sequence[Axis]) -> Displacements:
+    """Return how far from where it was sent a mass may be reported to stand, m."""
+    return {axis.mass: DIGIT + 0.5 / axis.steps_per_m for axis in axes}
+
+
 def _machine_position(status: Status, offset: Sequence[float] | None) -> tuple[float, ...] | None:
     """Return where the machine is, mm; None while that is not known: work = machine - offset."""
     if status.machine is not None or status.work is None or offset is None:

@@ -1,12 +1,17 @@
-"""The legs of a way to a Grbl board: where those sent end, and which is next.
+"""The legs of a way to a Grbl board: where and when those sent end, and which is next.
+
+No leg is sent before those ahead of it would leave less than a leg to go at the commanded speed: a
+board has a least feed, of 1 mm/min, and masses may have to be slower than that.
 
 A leg that was refused because the board runs (error:8) has moved nothing. The way goes on from
 where masses stand, once they do.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 
 from equipoise.hardware.boards.grbl.lines import jog
+from equipoise.hardware.boards.grbl.place import rounding_of
 from equipoise.hardware.boards.grbl.talk import Step
 from equipoise.hardware.boards.legs import next_leg, time_left
 from equipoise.hardware.transport.command_queue import Command
@@ -23,25 +28,27 @@ class Route:
         self._speed = self._own = speed
         self.sent: Displacements = {}  # where the legs sent so far end
         self.refused = False  # the last leg was, and waits for masses to stand
+        self._over = -math.inf  # s, when those end that were sent so far
 
     def begin(self, at: Displacements) -> None:
         """Begin where masses stand."""
-        self.sent, self.refused = dict(at), False
+        self.sent, self.refused, self._over = dict(at), False, -math.inf
 
     def slow_down(self, most: float) -> None:
         """Let no mass go faster than so many m/s from the next leg on."""
         self._speed = {name: min(speed, most) for name, speed in self._own.items()}
 
     def following(
-        self, axes: Sequence[Axis], position: Displacements, goal: Displacements
+        self, axes: Sequence[Axis], position: Displacements, goal: Displacements, t: float
     ) -> Command[Step] | None:
-        """Return the next leg when little is left of those before; None: not now."""
-        if self.refused or time_left(position, self.sent, self._speed) > LEG:
+        """Return the next leg when little is left of those before at t s; None: not now."""
+        left = time_left(position, self.sent, self._speed, rounding_of(axes))
+        if self.refused or max(left, self._over - t) > LEG:
             return None
         way = next_leg(self.sent, goal, self._speed)
         if way is None:
             self.sent = dict(goal)
             return None
         leg = jog(axes, self.sent, way)
-        self.sent = {**self.sent, **way.to}
+        self.sent, self._over = {**self.sent, **way.to}, max(self._over, t) + way.duration
         return leg

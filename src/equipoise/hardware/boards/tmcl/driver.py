@@ -17,6 +17,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from equipoise.hardware.boards.axis_letters import check_letters
+from equipoise.hardware.boards.legs import Pacemaker
 from equipoise.hardware.boards.tmcl import words as w
 from equipoise.hardware.boards.tmcl.scripts import CALLED, MARK, OBSERVED, Scripts, Steps
 from equipoise.hardware.boards.tmcl.settings import disagreement, guards, speed_value
@@ -61,6 +62,7 @@ class Tmcl(BoardDriver):
         # The limit switch asked for in this round, by mass.
         self._requested: dict[str, Request] = {}
         self._commanded = False  # the round under way sends masses elsewhere, or does not yet
+        self._pacemaker = Pacemaker()
         self._turn = 0  # whose limit switch is asked for
         self._still = self._since = self._next = t  # s
         self._calls = 0  # for the version, until it was answered
@@ -123,7 +125,7 @@ class Tmcl(BoardDriver):
             self._talk.call(CALLED, shifted=self._calls > 0)
             self._calls += 1
             return
-        script = self._round() if doing == "round" else self._scripts.step(doing)
+        script = self._round(t) if doing == "round" else self._scripts.step(doing)
         self._say(doing, script, t)
 
     def _say(self, doing: str, script: Sequence[Request], t: float) -> None:
@@ -131,7 +133,7 @@ class Tmcl(BoardDriver):
         self._doing, self._next = doing, t + (POLL_MOVING if quick else POLL)
         self._talk.say(script)
 
-    def _round(self) -> Sequence[Request]:
+    def _round(self, t: float) -> Sequence[Request]:
         """Return a round of questions, with the targets of masses on their way before them."""
         self._commanded = False
         if self.state.phase in (Phase.READY, Phase.FAULT):
@@ -139,7 +141,7 @@ class Tmcl(BoardDriver):
         if self.state.phase is Phase.HALTED or not self.state.goal:
             return [*self._scripts.each(w.GAP, w.SPEED), *self._scripts.each(w.GAP, w.AT), OBSERVED]
         going = self._going
-        targets = {k: self._steps.target(k, self._at[k], self.state.goal[k]) for k in going}
+        targets = self._targets(going, t)
         commands = [
             Request(w.MVP, w.ABSOLUTE, self._steps.motor(k), target)
             for k, target in targets.items()
@@ -151,6 +153,13 @@ class Tmcl(BoardDriver):
         slowed = self._scripts.slowed(self._most_speed) if going else ()
         return [*slowed, *commands, *requested, *self._switch_ahead(going), OBSERVED]
 
+    def _targets(self, going: Sequence[str], t: float) -> Mapping[str, int]:
+        """Return where to send masses on their way now, microsteps."""
+        goal, most, steps = self.state.goal, self._most_speed, self._steps
+        ends = {k: float(steps.steps(k, goal[k])) for k in goal}
+        led = self._pacemaker.led(ends, {k: steps.pace(k, most) for k in goal}, t)
+        return {k: steps.target(k, self._at[k], led[k], goal[k], most) for k in going}
+
     def _switch_ahead(self, going: Sequence[str]) -> Sequence[Request]:
         """Return the question for the limit switch ahead of one mass, the next in turn."""
         self._requested = {}
@@ -161,6 +170,12 @@ class Tmcl(BoardDriver):
             if switch is not None:
                 self._requested = {name: Request(w.GAP, switch, self._steps.motor(name))}
         return list(self._requested.values())
+
+    @property
+    def _longest_still(self) -> float:
+        """How long masses on their way may stand, s: as long as the slowest takes for two steps."""
+        steps = (2.0 / self._steps.pace(name, self._most_speed) for name in self._going)
+        return SETTLED + max(steps, default=-math.inf)
 
     @property
     def _going(self) -> Sequence[str]:
@@ -236,7 +251,7 @@ class Tmcl(BoardDriver):
         if state.phase in (Phase.MOVING, Phase.HOMING) and state.goal:
             if hit:
                 self._fault(BoardFault.SWITCH_HIT, hit[0])
-            elif not self._going or t - self._still > SETTLED:
+            elif t - self._still > self._longest_still:
                 self.state = replace(state, phase=Phase.READY, sure=True)
         elif state.phase is Phase.HOMING:
             self._aim(dict.fromkeys(self._names, 0.0), t)
@@ -249,6 +264,7 @@ class Tmcl(BoardDriver):
         """Take up a goal."""
         if self.state.phase is not Phase.MOVING:
             self._sent, self._requested = dict(self._at), {}
+            self._pacemaker.begin(self._at, t)
         phase = Phase.HOMING if self.state.phase is Phase.HOMING else Phase.MOVING
         whole = {name: goal.get(name, self.state.position[name]) for name in self._names}
         self.state = replace(self.state, phase=phase, goal=whole)

@@ -47,11 +47,20 @@ class Steps:
         axis = self.axes[name]
         return axis.displacement(steps / axis.steps_per_m)
 
-    def target(self, name: str, at: int, goal: float) -> int:
-        """Return the position to send a mass to, on its way from ``at`` to a goal (m)."""
-        end = self.steps(name, goal)
-        most = int(2 * LEG * self.speed[name] * self.axes[name].steps_per_m)
-        return max(at - most, min(at + most, end))
+    def pace(self, name: str, most: float) -> float:
+        """Return the microsteps of a mass in a second, no faster than so many m/s."""
+        return min(self.speed[name], most) * self.axes[name].steps_per_m
+
+    def target(self, name: str, at: int, led: float, goal: float, most: float) -> int:
+        """Return the position to send a mass to, on its way from ``at`` to a goal (m).
+
+        It is at most two legs ahead of where it is, and of where it would be at its speed.
+        """
+        end, ahead = self.steps(name, goal), 2 * LEG * self.pace(name, most)
+        step = max(2.0, ahead)
+        if end < at:
+            return max(end, min(at, math.ceil(max(at - step, led - ahead))))
+        return min(end, max(at, math.floor(min(at + step, led + ahead))))
 
 
 class Scripts:
@@ -83,10 +92,13 @@ class Scripts:
         return scripts[name]()
 
     def slowed(self, most: float) -> Sequence[Request]:
-        """Return what sets the speed of each mass, no faster than so many m/s, where it changes."""
+        """Return what sets the speed of each mass, for at most so many m/s, where it changes.
+
+        Units of speed are rounded up: the targets keep masses from being faster.
+        """
         own = self._steps.speed
         wanted = {
-            name: max(1, int(value * min(1.0, most / own[name])))
+            name: math.ceil(value * min(1.0, most / own[name]))
             for name, value in self.speeds.items()
         }
         changed = {name: v for name, v in wanted.items() if self._given.get(name) != v}

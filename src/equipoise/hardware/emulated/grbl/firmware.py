@@ -124,7 +124,6 @@ class EmulatedGrbl(GrblMachine):
         feed = values["F"] / MINUTE
         if self._state is State.JOG and self.motion.ahead(self._now) < LATE:
             self.late.append((to, feed))
-        else:
-            self.motion.queue(to, feed, self._now)
+        elif self.motion.queue(to, feed, self._now):
             self._state = State.JOG
         return b"ok\r\n"

@@ -19,6 +19,7 @@ from equipoise.model.units import MINUTE, MM
 
 LETTERS = "XYZABC"
 DELAY = 0.02  # s, chosen: from a command to the first step, as a planner needs
+LEAST_FEED = 1.0 / MINUTE  # mm/s, MINIMUM_FEED_RATE of the firmware's config.h
 SKIPPED = 0.2  # mm, chosen: by which an axis is off that was stopped dead
 
 
@@ -90,14 +91,20 @@ class Motion:
         """How far the farthest axis is from its switch, mm."""
         return float(np.max(np.abs(self._at + self._shift)))
 
-    def queue(self, to: Floats, feed: float, t: float) -> None:
-        """Go on to a place (mm) with a feed (mm/s); no axis goes faster than it may."""
+    def queue(self, to: Floats, feed: float, t: float) -> bool:
+        """Go on to a place (mm) with a feed (mm/s); say whether that is a step at all.
+
+        No axis goes faster than it may, and no way slower than the firmware's least feed.
+        """
         begin, steps = self.last, self._of(100)
         to = np.round(to * steps) / steps
-        way = np.abs(to - begin)
+        way, feed = np.abs(to - begin), max(feed, LEAST_FEED)
+        if not way.any():
+            return False
         taken = max(float(np.linalg.norm(way)) / feed, float(np.max(MINUTE * way / self._of(110))))
         start = self._blocks[-1].end if self._blocks else t + DELAY
         self._add(Block(start, start + taken, begin, to))
+        return True
 
     def slow_down(self, t: float) -> None:
         """Come to stand as the accelerations let it; what is left of its way is kept as rest."""
