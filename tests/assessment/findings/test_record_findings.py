@@ -119,6 +119,21 @@ def test_moves_of_masses_are_reported_with_times_and_sizes() -> None:
     assert "mass x1 moves from 0 to -10 mm" in moves[0].sentence
 
 
+@pytest.mark.parametrize("channel", ["momentum", "torque", "devices", "position"])
+def test_the_scale_is_open_only_where_nothing_absolute_was_recorded(channel) -> None:
+    """Momentum of wheels, known torque and the path on a table show it without a move."""
+    width = 2 if channel == "position" else 3
+    still = {"mass_names": ("x1",), "masses": Samples(T, np.zeros((len(T), 1)))}
+    named = {"device_names": ("wheel:x", "wheel:y", "wheel:z")} if channel == "devices" else {}
+    rests, acts = (Samples(T, np.full((len(T), width), value)) for value in (0.0, 0.5))
+    alone = replace(recorded(), **named, **{channel: acts})
+    assert "the scale remains open" in said(recorded(), "content")
+    assert "the scale remains open" in said(replace(alone, **{channel: rests}), "content")
+    assert "scale" not in said(alone, "content")
+    assert "No mass moved: the scale remains open." in said(replace(recorded(), **still), "content")
+    assert "No mass moved. " in said(replace(alone, **still), "content") + " "
+
+
 def test_every_channel_is_reported() -> None:
     """Of as many columns as each has; what a new one is called, somebody has to say."""
     rows = {name: Samples(np.arange(6.0), np.ones((6, 1))) for name in CHANNELS[2:]}

@@ -26,7 +26,7 @@ AIR = KINDS[0]
 @pytest.fixture(scope="module")
 def found():
     """Three quarters of a minute with two moves: bench, recording, testbed, estimate."""
-    testbed = table_of(AIR)
+    testbed = table_of(AIR, 0)
     bench = TrueTorqueBench(testbed, 108)
     recording = recorded(bench, 45.0, AIR.moves)
     *_, last = identify(recording, testbed, IdentifyOptions("trajectory"))
@@ -102,7 +102,7 @@ def test_an_estimate_of_an_impossible_body_is_refused(found):
 @thorough.whole
 def test_a_touch_is_a_contact_of_its_second():
     """An impulse of 2 mN m s about a level axis is a mean of 2 mN m within that second alone."""
-    testbed = table_of(AIR)
+    testbed = table_of(AIR, 0)
     assert testbed.truth is not None
     touch = Contact(12.4, np.array([2e-3, 0.0, 0.0]))
     testbed = replace(testbed, truth=replace(testbed.truth, contacts=(touch,)))

@@ -9,14 +9,17 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, runs
 
 STILL = 1e-6  # m between rows; chosen: below any actuator's step, above an encoder's flicker
+ABSOLUTE = ("momentum", "torque", "devices", "position")  # what shows the scale beside moves
 NAMED = 12  # moves that are named one by one; chosen: two rounds of six masses
 
 
 def move_findings(recording: Recording) -> list[Finding]:
     """Return each move in order of time."""
     masses = recording.masses
+    absolute = (getattr(recording, channel) for channel in ABSOLUTE)
+    scaled = any(rows is not None and np.any(rows.values) for rows in absolute)
     if masses is None or not len(masses):
-        return [Finding("content", one_reason(Why.NO_POSITIONS))]
+        return [] if scaled else [Finding("content", one_reason(Why.NO_POSITIONS))]
     moves = [
         move
         for i, name in enumerate(recording.mass_names)
@@ -24,7 +27,8 @@ def move_findings(recording: Recording) -> list[Finding]:
     ]
     moves.sort(key=lambda move: move.span or (0.0, 0.0))
     if not moves:
-        return [Finding("content", one_reason(Why.NO_MASS_MOVED))]
+        why = Why.MASSES_STAND if scaled else Why.NO_MASS_MOVED
+        return [Finding("content", one_reason(why))]
     more = len(moves) - NAMED
     rest = [Finding("motion", one_reason(Why.MORE_MOVES, count=more))] if more > 0 else []
     return [*moves[:NAMED], *rest]

@@ -62,6 +62,7 @@ class FindingReason(Code):
     # Masses and motion
     NO_POSITIONS = "no_positions", "No mass positions were recorded: the scale remains open."
     NO_MASS_MOVED = "no_mass_moved", "No mass moved: the scale remains open."
+    MASSES_STAND = "masses_stand", "No mass moved."
     MASS_MOVES = (
         "mass_moves",
         "mass {0} moves from {start:mm .4g} to {end:mm .4g} mm between {t_start:.6g} and "

@@ -5,7 +5,6 @@ All times are attended: what nobody listened to is not late.
 
 from dataclasses import dataclass
 
-from equipoise.hardware.boards.grbl.report import MachineState
 from equipoise.hardware.boards.grbl.talk import BEGIN, HOMING, GrblTalk, Step
 from equipoise.hardware.transport.driver_protocol import SILENCE, Phase
 from equipoise.model.reasons.board_faults import BoardFault
