@@ -54,7 +54,7 @@ KINDS = (
     Kind("still air", noise=0.0),
     Kind("strong air", noise=1e-5),
     Kind("drift", terms=("drift",), torque={"drift_x": 3e-8, "drift_y": -5e-8}),
-    Kind("sag", terms=("sag",), drawn=("sag",)),
+    Kind("sag", terms=("sag",), drawn=("sag",), height=-400e-6),
     Kind("damped", terms=("viscous",),
          torque={"viscous_x": 2e-4, "viscous_y": 2e-4, "viscous_z": 4e-4}),
     Kind("nearly balanced", height=-5e-6, aside=5e-7, moves=((20.5, {"x1": 2e-4}),)),
