@@ -151,6 +151,21 @@ def test_slow_ways_in_a_row_all_arrive(kind):
 
 
 @every_board
+def test_a_creeping_mass_halts_where_it_is(kind):
+    wire = Wire(kind, turn=0.05).at_home()
+    wire.driver.go({"x": 100 * UM}, wire.t, 3.3 * UM)
+    wire.run(10.0)
+    wire.driver.halt(wire.t)
+    state = wire.run(1.0, until="ready")
+    stood = wire.true("x")
+    assert (state.phase, state.sure) == ("ready", True)
+    assert 28 * UM < stood < 38 * UM
+    wire.run(2.0)
+    assert wire.true("x") == stood
+    assert state.position["x"] == pytest.approx(stood, abs=2e-6)
+
+
+@every_board
 @pytest.mark.parametrize("turn", [0.002, 0.01])
 def test_a_halt_stops_at_once_and_the_position_stays_known(kind, turn):
     """It says that it is ready when the masses stand."""
