@@ -1,6 +1,6 @@
 """Random cycles of a board's life: what comes of each, judged by where masses really are.
 
-A cycle is one of: move, move and move again, halt in mid-move, home, the board's reset, its power,
+A cycle is one of: move, move and move again, creep, halt in mid-move, home, the board's reset, its power,
 its plug, a pause of the host. Then the board must be ready, and where it says that it is; or at
 fault in words that the cycle explains, and ready again after homing.
 """
@@ -15,7 +15,7 @@ from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.emulated.registry import emulated_board
 from equipoise.hardware.transport.driver_protocol import LEG, Phase
 from equipoise.model.reasons.board_faults import BoardFault
-from equipoise.model.units import MM
+from equipoise.model.units import MM, UM
 from tests.support.board_wire import BED, along, board_of
 from tests.support.nasty_line import NastyLine, PlainLine
 
@@ -129,7 +129,7 @@ class Soak:
         """Live through so many cycles; return what became of them."""
         self._ready("connect", 8.0)
         self._home()
-        kinds = [self.move, self.move_again, self.halt, self.halt, self.pause, self.home_again,
+        kinds = [self.move, self.move_again, self.creep, self.halt, self.halt, self.pause, self.home_again,
                  self.reset, self.power, self.unplug, self.limit]  # fmt: skip
         for _ in range(cycles):
             kind = kinds[self.rng.integers(len(kinds))]
@@ -150,6 +150,16 @@ class Soak:
         self.wait(self.rng.uniform(0.0, 1.0))
         goal = self._go()
         self._ready("move again", 10.0)
+        self._well(goal)
+
+    def creep(self):
+        """Go a little way as slowly as a hold does, and on before that is over."""
+        speed = float(self.rng.uniform(3.0, 20.0)) * UM
+        for seconds in (self.rng.uniform(0.0, 4.0), 0.0):
+            goal = {name: self.true(name) + 15 * UM * self.rng.uniform(-1, 1) for name in "xz"}
+            self.driver.go(goal, self.t, speed)
+            self.wait(seconds)
+        self._ready("creep", 30 * UM / speed + 2.0)
         self._well(goal)
 
     def halt(self):
