@@ -1,8 +1,8 @@
 """Random cycles of a board's life: what comes of each, judged by where masses really are.
 
-A cycle is one of: move, move and move again, creep, halt in mid-move, home, the board's reset, its power,
-its plug, a pause of the host. Then the board must be ready, and where it says that it is; or at
-fault in words that the cycle explains, and ready again after homing.
+A cycle is one of: move, move and move again, creep, halt in mid-move, home, the board's reset, its
+power, its plug, a pause of the host. Then the board must be ready, and where it says that it is; or
+at fault in words that the cycle explains, and ready again after homing.
 """
 
 from dataclasses import dataclass, field
@@ -129,8 +129,8 @@ class Soak:
         """Live through so many cycles; return what became of them."""
         self._ready("connect", 8.0)
         self._home()
-        kinds = [self.move, self.move_again, self.creep, self.halt, self.halt, self.pause, self.home_again,
-                 self.reset, self.power, self.unplug, self.limit]  # fmt: skip
+        kinds = [self.move, self.move_again, self.creep, self.halt, self.halt, self.pause,
+                 self.home_again, self.reset, self.power, self.unplug, self.limit]  # fmt: skip
         for _ in range(cycles):
             kind = kinds[self.rng.integers(len(kinds))]
             self.doing = kind.__name__
@@ -154,6 +154,7 @@ class Soak:
 
     def creep(self):
         """Go a little way as slowly as a hold does, and on before that is over."""
+        self._ready("begin", 8.0)  # what goes on from before would creep, too
         speed = float(self.rng.uniform(3.0, 20.0)) * UM
         for seconds in (self.rng.uniform(0.0, 4.0), 0.0):
             goal = {name: self.true(name) + 15 * UM * self.rng.uniform(-1, 1) for name in "xz"}

@@ -151,6 +151,36 @@ def test_slow_ways_in_a_row_all_arrive(kind):
 
 
 @every_board
+@pytest.mark.parametrize("back_um", [0.0, 2.5, 5.0, 7.5, 10.0])
+def test_a_mass_that_is_sent_where_it_just_passes_comes_back(kind, back_um):
+    """It was sent further before: to be there at the moment is not to stay there."""
+    wire = Wire(kind, turn=0.05).at_home()
+    wire.driver.go({"x": 1 * MM}, wire.t, 10 * UM)
+    wire.run(5.0)
+    goal = wire.driver.state.position["x"] + back_um * UM - 5 * UM
+    wire.driver.go({"x": goal, "z": 20 * UM}, wire.t, 10 * UM)
+    assert wire.run(6.0, until="ready").phase == "ready"
+    wire.run(1.0)
+    assert wire.true("x") == pytest.approx(goal, abs=2e-6)
+
+
+@every_board
+def test_a_way_that_is_halted_as_it_begins_leaves_no_slowness(kind):
+    """The module creeps, and may not have been told of its own speed when the halt comes."""
+    wire = Wire(kind, turn=0.02).at_home()
+    for turns in range(25):
+        wire.driver.go(dict.fromkeys("xyz", wire.true("x") + 5 * UM), wire.t, 20 * UM)
+        assert wire.run(2.0, until="ready").phase == "ready"
+        goal = 0.0 if turns % 2 else 2 * MM
+        for seconds in (turns * wire.turn, 1.5):
+            wire.driver.go(dict.fromkeys("xyz", goal), wire.t)
+            wire.run(seconds, until="ready")
+            wire.driver.halt(wire.t)
+            assert wire.run(1.0, until="ready").phase == "ready"
+        assert [wire.true(name) for name in "xyz"] == pytest.approx([goal] * 3, abs=2e-6)
+
+
+@every_board
 def test_a_creeping_mass_halts_where_it_is(kind):
     wire = Wire(kind, turn=0.05).at_home()
     wire.driver.go({"x": 100 * UM}, wire.t, 3.3 * UM)

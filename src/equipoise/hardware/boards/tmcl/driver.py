@@ -179,14 +179,16 @@ class Tmcl(BoardDriver):
 
     @property
     def _going(self) -> Sequence[str]:
-        goal = self.state.goal
-        return [k for k in self._names if self._at[k] != self._steps.steps(k, goal[k])]
+        """Masses that are not where they are to go, or were last sent elsewhere."""
+        ends = {k: self._steps.steps(k, goal) for k, goal in self.state.goal.items()}
+        return [k for k in self._names if not self._at[k] == self._sent.get(k, ends[k]) == ends[k]]
 
     # --- What was answered -------------------------------------------------------------------
 
     def _done(self, step: str, t: float) -> None:
         """Draw the conclusion from a script that was answered."""
         refused = self._talk.refused
+        self._scripts.answered(self._talk.answers)
         if step == "version" and refused and self._calls < w.SIZE:
             return  # it is called again, another part of a datagram later
         if self.state.phase is not Phase.FAULT and refused and step != "settings":

@@ -16,6 +16,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from equipoise.hardware.boards.tmcl import words as w
 from equipoise.hardware.boards.tmcl.settings import questions
+from equipoise.hardware.boards.tmcl.talk import Answer
 from equipoise.hardware.boards.tmcl.words import Request
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.hardware import Axis, MotorBoard
@@ -69,7 +70,7 @@ class Scripts:
     def __init__(self, board: MotorBoard, steps: Steps) -> None:
         self._board, self._steps = board, steps
         self.speeds: dict[str, int] = {}
-        self._given: dict[str, int] = {}  # speeds that the module has by now
+        self._given: dict[str, int] = {}  # speeds that the module is known to have
 
     def each(self, command: int, type_: int = 0) -> Sequence[Request]:
         """Return the same request to each motor."""
@@ -94,7 +95,8 @@ class Scripts:
     def slowed(self, most: float) -> Sequence[Request]:
         """Return what sets the speed of each mass, for at most so many m/s, where it changes.
 
-        Units of speed are rounded up: the targets keep masses from being faster.
+        Units of speed are rounded up: the targets keep masses from being faster. What the module
+        has is not known until it has answered: another script may come first.
         """
         own = self._steps.speed
         wanted = {
@@ -102,11 +104,18 @@ class Scripts:
             for name, value in self.speeds.items()
         }
         changed = {name: v for name, v in wanted.items() if self._given.get(name) != v}
-        self._given |= changed
+        self._given = {name: v for name, v in self._given.items() if name not in changed}
         return [
             Request(w.SAP, w.MOST_SPEED, self._steps.motor(name), speed)
             for name, speed in changed.items()
         ]
+
+    def answered(self, answers: Mapping[Request, Answer]) -> None:
+        """Note which speeds the module has taken."""
+        names = {self._steps.motor(name): name for name in self.speeds}
+        for request, answer in answers.items():
+            if (request.command, request.type) == (w.SAP, w.MOST_SPEED) and answer.done:
+                self._given[names[request.motor]] = request.value
 
     def _marked(self) -> Sequence[Request]:
         self._given = {}
