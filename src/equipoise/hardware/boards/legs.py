@@ -43,14 +43,14 @@ def time_left(
     here: Mapping[str, float],
     goal: Mapping[str, float],
     speed: Mapping[str, float],
-    rounding: Mapping[str, float],
+    rounding: Mapping[str, float] | None = None,
 ) -> float:
     """Return how long masses still need to a goal, s; within ``rounding`` (m) they are there.
 
     A slow mass needs longer for the rounding of its position than for a leg.
     """
     ways = {name: abs(goal[name] - here[name]) for name in goal}
-    ways = {name: way for name, way in ways.items() if way > rounding[name]}
+    ways = {name: way for name, way in ways.items() if rounding is None or way > rounding[name]}
     return max((way / speed[name] for name, way in ways.items()), default=0.0)
 
 

@@ -54,7 +54,7 @@ from equipoise.model.reasons.board_faults import BoardFault
 from equipoise.model.reasons.reason import Number, Reason
 from equipoise.model.testbed import SlidingMass
 
-SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
+SETTLED = 1.0  # s, chosen: twice there and back by radio; standing for so long, it goes nowhere
 
 
 class Grbl(BoardDriver):
@@ -112,7 +112,7 @@ class Grbl(BoardDriver):
             self._talk.reset()
         self._request_settings()
         self.state = BoardState(Phase.HOMING, reported=self.state.reported)
-        self._route.begin({})
+        self._route.begin({}, t)
         self._wait_from(t)
 
     def halt(self, t: float) -> None:
@@ -243,7 +243,7 @@ class Grbl(BoardDriver):
         elif phase is Phase.HOMING and not self.state.goal:
             self._found(status)
         elif phase is not Phase.READY and status.state is MachineState.IDLE:
-            self._arrived()
+            self._arrived(t)
 
     def _slow_down(self, status: Status, t: float) -> None:
         moved = self._place.moved_by_reset()
@@ -282,10 +282,10 @@ class Grbl(BoardDriver):
             self.state = replace(self.state, position=home)
         self._aim(home, self._talk.arrived)
 
-    def _arrived(self) -> None:
+    def _arrived(self, t: float) -> None:
         """Let a way end where the board stands, all legs sent and taken."""
         if self._route.refused:
-            self._route.begin(self.state.position)
+            self._route.begin(self.state.position, t)
         if not self._talk.queue.over or self._route.sent != self.state.goal:
             return
         position, goal = self.state.position, self.state.goal
@@ -301,7 +301,7 @@ class Grbl(BoardDriver):
     def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal; legs are sent from where the last ones end."""
         if self.state.phase is Phase.READY or not self._route.sent:
-            self._route.begin(self.state.position)
+            self._route.begin(self.state.position, t)
             self._since = self._talk.clock.now
         self._route.slow_down(self._most_speed)
         phase = Phase.HOMING if self.state.phase is Phase.HOMING else Phase.MOVING

@@ -7,13 +7,12 @@ A leg that was refused because the board runs (error:8) has moved nothing. The w
 where masses stand, once they do.
 """
 
-import math
 from collections.abc import Mapping, Sequence
 
 from equipoise.hardware.boards.grbl.lines import jog
 from equipoise.hardware.boards.grbl.place import rounding_of
 from equipoise.hardware.boards.grbl.talk import Step
-from equipoise.hardware.boards.legs import next_leg, time_left
+from equipoise.hardware.boards.legs import Pacemaker, next_leg, time_left
 from equipoise.hardware.transport.command_queue import Command
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.hardware import Axis
@@ -28,11 +27,12 @@ class Route:
         self._speed = self._own = speed
         self.sent: Displacements = {}  # where the legs sent so far end
         self.refused = False  # the last leg was, and waits for masses to stand
-        self._over = -math.inf  # s, when those end that were sent so far
+        self._pacemaker = Pacemaker()
 
-    def begin(self, at: Displacements) -> None:
-        """Begin where masses stand."""
-        self.sent, self.refused, self._over = dict(at), False, -math.inf
+    def begin(self, at: Displacements, t: float) -> None:
+        """Begin where masses stand, at t s."""
+        self.sent, self.refused = dict(at), False
+        self._pacemaker.begin(at, t)
 
     def slow_down(self, most: float) -> None:
         """Let no mass go faster than so many m/s from the next leg on."""
@@ -42,13 +42,14 @@ class Route:
         self, axes: Sequence[Axis], position: Displacements, goal: Displacements, t: float
     ) -> Command[Step] | None:
         """Return the next leg when little is left of those before at t s; None: not now."""
+        led = self._pacemaker.led(self.sent, self._speed, t)
         left = time_left(position, self.sent, self._speed, rounding_of(axes))
-        if self.refused or max(left, self._over - t) > LEG:
+        if self.refused or max(left, time_left(led, self.sent, self._speed)) > LEG:
             return None
         way = next_leg(self.sent, goal, self._speed)
         if way is None:
             self.sent = dict(goal)
             return None
         leg = jog(axes, self.sent, way)
-        self.sent, self._over = {**self.sent, **way.to}, max(self._over, t) + way.duration
+        self.sent = {**self.sent, **way.to}
         return leg
