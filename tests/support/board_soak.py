@@ -207,7 +207,8 @@ class Soak:
         self._troubled()
 
     def limit(self):
-        """Push a limit switch in mid-move."""
+        """Push a limit switch ahead in mid-move; one behind a mass that turns back stops nothing."""
+        self._ready("begin", 8.0)
         self._go()
         self.wait(self.rng.uniform(0.1, 0.3))
         if self._under_way:
