@@ -207,7 +207,7 @@ class Soak:
         self._troubled()
 
     def limit(self):
-        """Push a limit switch ahead in mid-move; one behind a mass that turns back stops nothing."""
+        """Push a limit switch ahead; one behind a mass that turns back stops nothing."""
         self._ready("begin", 8.0)
         self._go()
         self.wait(self.rng.uniform(0.1, 0.3))
