@@ -23,7 +23,7 @@ from equipoise.hardware.boards.grbl.codes import IDLE_ERROR, alarm_text, error_t
 from equipoise.hardware.boards.grbl.halt import Halting, Wish
 from equipoise.hardware.boards.grbl.lateness import too_late
 from equipoise.hardware.boards.grbl.lines import step_command
-from equipoise.hardware.boards.grbl.place import Place, rounding_of
+from equipoise.hardware.boards.grbl.place import Place
 from equipoise.hardware.boards.grbl.report import (
     Code,
     Greeting,
@@ -53,8 +53,6 @@ from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.reasons.board_faults import BoardFault
 from equipoise.model.reasons.reason import Number, Reason
 from equipoise.model.testbed import SlidingMass
-
-SETTLED = 1.0  # s, chosen: twice there and back by radio; standing for so long, it goes nowhere
 
 
 class Grbl(BoardDriver):
@@ -223,9 +221,9 @@ class Grbl(BoardDriver):
         if not self._place.take(self._axes, status, arrived, standing):
             self.count(corrupt=1)
         elif self._place.at:
-            self.state = replace(self.state, position=self._place.at, reported=arrived)
-            if self.state.phase is not Phase.HALTED and self._place.still == arrived:
+            if self.state.phase is not Phase.HALTED and self._place.at != self.state.position:
                 self._since = self._talk.clock.now  # a way goes on
+            self.state = replace(self.state, position=self._place.at, reported=arrived)
 
     # --- What it means -----------------------------------------------------------------------
 
@@ -286,14 +284,9 @@ class Grbl(BoardDriver):
         """Let a way end where the board stands, all legs sent and taken."""
         if self._route.refused:
             self._route.begin(self.state.position, t)
-        if not self._talk.queue.over or self._route.sent != self.state.goal:
-            return
         position, goal = self.state.position, self.state.goal
-        there = all(
-            abs(position[mass] - goal[mass]) <= rounding
-            for mass, rounding in rounding_of(self._axes).items()
-        )
-        if there or self._talk.arrived - max(self._place.still, self._changed) > SETTLED:
+        stood = self._talk.arrived - max(self._place.still, self._changed)
+        if self._talk.queue.over and self._route.is_over(self._axes, position, goal, stood):
             self.state = replace(self.state, phase=Phase.READY, sure=True)
 
     # --- What is sent ------------------------------------------------------------------------

@@ -17,6 +17,8 @@ from equipoise.hardware.transport.command_queue import Command
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.hardware import Axis
 
+SETTLED = 1.0  # s, chosen: twice there and back by radio; standing for so long, it goes nowhere
+
 Displacements = Mapping[str, float]  # m, by mass
 
 
@@ -37,6 +39,19 @@ class Route:
     def slow_down(self, most: float) -> None:
         """Let no mass go faster than so many m/s from the next leg on."""
         self._speed = {name: min(speed, most) for name, speed in self._own.items()}
+
+    def is_over(
+        self, axes: Sequence[Axis], position: Displacements, goal: Displacements, stood: float
+    ) -> bool:
+        """Say whether masses that have stood for so long (s) go no further.
+
+        All legs are sent. Masses are where these end, or they would have moved.
+        """
+        there = all(
+            abs(position[name] - goal[name]) <= rounding
+            for name, rounding in rounding_of(axes).items()
+        )
+        return self.sent == goal and (there or stood > SETTLED)
 
     def following(
         self, axes: Sequence[Axis], position: Displacements, goal: Displacements, t: float

@@ -172,12 +172,6 @@ class Tmcl(BoardDriver):
         return list(self._requested.values())
 
     @property
-    def _longest_still(self) -> float:
-        """How long masses on their way may stand, s: as long as the slowest takes for two steps."""
-        steps = (2.0 / self._steps.pace(name, self._most_speed) for name in self._going)
-        return SETTLED + max(steps, default=-math.inf)
-
-    @property
     def _going(self) -> Sequence[str]:
         """Masses that are not where they are to go, or were last sent elsewhere."""
         ends = {k: self._steps.steps(k, goal) for k, goal in self.state.goal.items()}
@@ -253,7 +247,7 @@ class Tmcl(BoardDriver):
         if state.phase in (Phase.MOVING, Phase.HOMING) and state.goal:
             if hit:
                 self._fault(BoardFault.SWITCH_HIT, hit[0])
-            elif t - self._still > self._longest_still:
+            elif not self._going or t - self._still > SETTLED + self._two_steps:
                 self.state = replace(state, phase=Phase.READY, sure=True)
         elif state.phase is Phase.HOMING:
             self._aim(dict.fromkeys(self._names, 0.0), t)
@@ -261,6 +255,11 @@ class Tmcl(BoardDriver):
             speeds = [self._talk.value(q) for q in self._scripts.each(w.GAP, w.SPEED)]
             if speeds and not any(speeds):
                 self.state = replace(state, phase=Phase.READY, goal=dict(state.position))
+
+    @property
+    def _two_steps(self) -> float:
+        """How long the slowest of the masses on their way takes for two steps, s."""
+        return 2.0 / min(self._steps.pace(name, self._most_speed) for name in self._going)
 
     def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal."""

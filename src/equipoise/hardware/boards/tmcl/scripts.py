@@ -4,8 +4,8 @@ Displacements of masses are in the module's microsteps:
 
     microsteps = (zero +- displacement) * steps per metre
 
-Every round sends each motor a target at most two legs ahead of its last reported position: TMCL
-keeps no queue, and a target replaces the one before.
+Every round sends each motor a target at most two legs ahead of its last reported position, and of
+where it would be at the commanded speed: TMCL keeps no queue, and a target replaces the one before.
 
 The mark is a variable of its working memory: after a reset it is 0 again. Source: TMCM-6110 TMCL
 Firmware Manual V1.31, 4.6.13 "RFS", chapter 6 "Global parameters", bank 2.

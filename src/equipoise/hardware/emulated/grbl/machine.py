@@ -180,8 +180,9 @@ class GrblMachine(ABC):
     def _run_late(self) -> None:
         """Start what a jog has queued while the one before ended: not as a jog."""
         late, self.late = self.late, []
-        if any([self.motion.queue(to, feed, self._now) for to, feed in late]):
-            self._state = State.RUN
+        for to, feed in late:
+            if self.motion.queue(to, feed, self._now):
+                self._state = State.RUN
 
     # --- Flags -------------------------------------------------------------------------------
 
